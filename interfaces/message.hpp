@@ -12,7 +12,8 @@
 /// Messages on the bus: the generated C structs with value semantics and their own storage.
 namespace erp {
 
-/// Capacity of a bounded IDL sequence; the bounds of `interfaces/idl/sizes.idl`.
+/// Capacity of a bounded IDL sequence. `topics.hpp` repeats the bounds of
+/// `interfaces/idl/sizes.idl`.
 template <class Element>
 inline constexpr std::size_t capacity_of = 64;
 
@@ -41,7 +42,7 @@ void assign(char (&field)[N], std::string_view text) {
   std::fill(field + text.size(), field + N, '\0');
 }
 
-/// Copies as much of a text as fits; for notes and reasons, which may be truncated.
+/// Copies a text and truncates it if it is too long; for notes and reasons.
 template <std::size_t N>
 void assign_shortened(char (&field)[N], std::string_view text) {
   assign(field, text.substr(0, N - 1));
@@ -60,8 +61,8 @@ template <auto Member>
 using element_of = std::remove_pointer_t<decltype(sequence_of<Member>::_buffer)>;
 }  // namespace detail
 
-/// A wire struct together with the storage of its sequences: copyable, without heap allocation.
-/// Copies contain the used elements only.
+/// A generated C struct together with the storage of its sequences: copyable, without heap
+/// allocation. A copy contains only the used elements.
 template <class WireStruct, auto... Members>
 struct Message : WireStruct {
   using Wire = WireStruct;

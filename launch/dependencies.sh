@@ -20,7 +20,7 @@ case ${1:-build} in
   *) echo "dependencies.sh: unknown set \"$1\"; give build, test or docs" >&2; exit 2 ;;
 esac
 
-# A command that was installed in another way replaces the Debian package.
+# If a command exists that was installed in another way, its Debian package is not installed.
 missing=()
 for package in "${required[@]}"; do
   case $package in

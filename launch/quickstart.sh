@@ -17,8 +17,8 @@ build/release/bin/erp log plot "$out/hinge_rig.mcap" --out "$out/hinge_rig.png" 
 cat <<END
 
 Tension control of two antagonistic muscles at 500 Hz, simulated with the ECU firmware.
-RMS errors below 2 N are good: the desired tensions run from 5 to 40 N and change by up to 24 N/s. Larger errors mean that
-the computer was busy: a run in real time depends on it, a run with --lockstep does not.
+RMS errors below 2 N are good: the desired tensions are between 5 and 40 N and change by up to 24 N/s. Larger errors mean
+that the computer was busy. This affects runs in real time, but not runs with --lockstep.
   recording  $out/hinge_rig.mcap      (Foxglove and PlotJuggler open it)
   plot       $out/hinge_rig.png
 Next:

@@ -19,7 +19,7 @@ namespace control {
 /// `<goal at_m="0.3 -0.2 -0.5"/>`: position in the world.
 struct ReachGoal {
   static constexpr auto element = "goal";
-  static constexpr auto meaning = "Position to reach; the goals are reached in sequence.";
+  static constexpr auto description = "Position to reach; the goals are reached in sequence.";
   xml::Place place;
   xml::Vec3 at_m{};
   void visit(auto& v) { v.required("at_m", at_m, "Position in the world that the hand reaches."); }

@@ -17,7 +17,7 @@ namespace images {
 /// it.
 struct BoneConfig {
   static constexpr auto element = "bone";
-  static constexpr auto meaning = "Bone that hides the markers behind it in rendered images.";
+  static constexpr auto description = "Bone that hides the markers behind it in rendered images.";
   xml::Place place;
   std::string body;
   xml::Vec3 from_m{0, 0, 0}, to_m{0, 0, 0};

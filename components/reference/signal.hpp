@@ -18,7 +18,7 @@ enum class Shape { constant, step, sine, sweep };
 
 struct Signal {
   static constexpr auto element = "signal";
-  static constexpr auto meaning = "Test signal for one actuator.";
+  static constexpr auto description = "Test signal for one actuator.";
   xml::Place place;
   std::string actuator;
   erp::Mode mode = erp::Mode::force;

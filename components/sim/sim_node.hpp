@@ -31,7 +31,7 @@ class SimNode {
  public:
   struct Lock {
     static constexpr auto element = "lock";
-    static constexpr auto meaning = "Joint that does not move.";
+    static constexpr auto description = "Joint that does not move.";
     xml::Place place;
     std::string joint;
     void visit(auto& v) {

@@ -18,7 +18,7 @@ namespace control {
 /// `<target at_m="0.35 -0.2 0.1"/>`: the centre of a bottle, in the world.
 struct StrikeTarget {
   static constexpr auto element = "target";
-  static constexpr auto meaning = "Bottle to strike; the targets are struck in sequence.";
+  static constexpr auto description = "Bottle to strike; the targets are struck in sequence.";
   xml::Place place;
   xml::Vec3 at_m{};
   void visit(auto& v) { v.required("at_m", at_m, "Centre of the bottle in the world."); }

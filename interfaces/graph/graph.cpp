@@ -8,14 +8,14 @@
 namespace erp {
 namespace {
 
-/// Bound of the key `component` in the messages; a test compares both.
+/// Bound of the string `component` in the IDL of the messages; a test compares both values.
 constexpr std::size_t max_component_name_length = 32;
 
 void resolve(std::string& file, const std::string& graph_file) {
   if (!file.empty()) file = xml::resolved(file, graph_file);
 }
 
-/// Checks file names before they are resolved, so that errors quote the text of the graph.
+/// Checks file names before they are resolved: errors then quote the text of the graph.
 class Check {
  public:
   explicit Check(const Graph& graph) : graph_(graph) {}
@@ -75,7 +75,7 @@ class Check {
   }
 
   void check(const GraphComponent& component) {
-    const auto [first, is_new] = seen_.emplace(component.name, component.place);
+    const auto [first, is_new] = place_of_name_.emplace(component.name, component.place);
     if (!is_new)
       add(component, "duplicate name " + xml::quote(component.name),
           "give this one its own name and set type=\"…\"; the first is in line " +
@@ -92,7 +92,7 @@ class Check {
   }
 
   const Graph& graph_;
-  std::map<std::string, xml::Place> seen_;
+  std::map<std::string, xml::Place> place_of_name_;
   std::vector<xml::Error> errors_;
 };
 

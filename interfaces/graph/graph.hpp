@@ -14,7 +14,7 @@ enum class Restart { never, on_failure, always };
 
 struct GraphComponent {
   static constexpr auto element = "component";
-  static constexpr auto meaning =
+  static constexpr auto description =
       "Process of the graph. The plant, the device (sim, gateway or replay) and the simulator "
       "behind a bus are started without a <component>; they need one only for a config of their "
       "own.";
@@ -38,7 +38,7 @@ struct GraphComponent {
 
 struct Graph {
   static constexpr auto element = "graph";
-  static constexpr auto meaning = "Graph of processes for one robot, started by `erp launch`.";
+  static constexpr auto description = "Graph of processes for one robot, started by `erp launch`.";
   xml::Place place;
   std::string name;
   std::string robot;

@@ -6,8 +6,8 @@
 
 namespace sim {
 
-/// Calls work(k) for each k < count on several threads. When all have ended, rethrows the exception
-/// of the smallest k, if any.
+/// Calls work(k) for each k < count on `threads` threads, including the calling one. After all
+/// calls have ended, rethrows the exception of the smallest k that failed.
 template <class Work>
 void in_parallel(std::size_t count, int threads, Work work) {
   std::atomic<std::size_t> next = 0;
@@ -20,8 +20,8 @@ void in_parallel(std::size_t count, int threads, Work work) {
       }
   };
   {
-    std::vector<std::jthread> others;
-    for (int t = 1; t < threads; ++t) others.emplace_back(run);
+    std::vector<std::jthread> workers;
+    for (int t = 1; t < threads; ++t) workers.emplace_back(run);
     run();
   }
   for (const std::exception_ptr& failure : failures)

@@ -30,7 +30,8 @@ MpiPool::MpiPool(int threads) : threads_(threads) {
   MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
   MPI_Comm_size(MPI_COMM_WORLD, &ranks_);
 }
-/// Does not finalize during an exception: mpirun then ends the other processes, which would wait.
+/// Does not finalize during an exception: mpirun then ends the other processes, which would wait
+/// forever otherwise.
 MpiPool::~MpiPool() {
   if (std::uncaught_exceptions() == 0) MPI_Finalize();
 }
@@ -38,24 +39,27 @@ MpiPool::~MpiPool() {
 std::vector<Pool::Numbers> MpiPool::map(std::size_t count,
                                         const std::function<Numbers(std::size_t)>& work) const {
   const auto rank = static_cast<std::size_t>(rank_), ranks = static_cast<std::size_t>(ranks_);
-  const auto part_of = [&](std::size_t r) { return count / ranks + (r < count % ranks ? 1 : 0); };
+  const auto part_count = [&](std::size_t r) {
+    return count / ranks + (r < count % ranks ? 1 : 0);
+  };
   std::vector<Numbers> mine;
   std::exception_ptr failure;
   try {
-    mine = threads_.map(part_of(rank), [&](std::size_t k) { return work(rank + k * ranks); });
+    mine = threads_.map(part_count(rank), [&](std::size_t k) { return work(rank + k * ranks); });
   } catch (...) {
     failure = std::current_exception();
   }
-  int failed = failure ? 1 : 0, any = 0;
-  MPI_Allreduce(&failed, &any, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+  int failed = failure ? 1 : 0, any_failed = 0;
+  MPI_Allreduce(&failed, &any_failed, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
   if (failure) std::rethrow_exception(failure);
-  if (any) throw std::runtime_error("another process of this mpirun has failed; see its message");
+  if (any_failed)
+    throw std::runtime_error("another process of this mpirun has failed; see its message");
 
   std::vector<int> my_sizes;
   Numbers my_numbers;
-  for (const Numbers& one : mine) {
-    my_sizes.push_back(static_cast<int>(one.size()));
-    my_numbers.insert(my_numbers.end(), one.begin(), one.end());
+  for (const Numbers& part : mine) {
+    my_sizes.push_back(static_cast<int>(part.size()));
+    my_numbers.insert(my_numbers.end(), part.begin(), part.end());
   }
   const auto sizes = gathered(my_sizes, MPI_INT, ranks_);
   const auto numbers = gathered(my_numbers, MPI_DOUBLE, ranks_);

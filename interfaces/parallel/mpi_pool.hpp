@@ -3,7 +3,7 @@
 
 namespace sim {
 
-/// The processes that `mpirun` started, each with several threads. Process k modulo their number
+/// The processes that `mpirun` started, each with several threads. Of n processes, process k mod n
 /// computes part k. If a part throws, `map` rethrows its exception in that process and throws
 /// std::runtime_error in the others.
 class MpiPool final : public Pool {

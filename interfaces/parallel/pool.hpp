@@ -8,15 +8,16 @@
 /// Distributes the parts of a computation over threads, or over processes on several machines.
 ///
 /// Under `mpirun` each process runs the same program on the same input. The processes divide the
-/// parts of each `map`, and all receive all of its numbers, so that their states stay equal. Only
-/// the first process writes files and prints.
+/// parts of each `map`. Each process receives all numbers of the result: the states of the
+/// processes stay equal. Only the first process writes files and prints.
 namespace sim {
 
 class Pool {
  public:
   using Numbers = std::vector<double>;
   virtual ~Pool() = default;
-  /// Returns work(k) for each k < count, in order. Rethrows an exception when all parts have ended.
+  /// Returns work(k) for each k < count, in the order of k. If a part throws, rethrows its
+  /// exception after all parts have ended.
   virtual std::vector<Numbers> map(std::size_t count,
                                    const std::function<Numbers(std::size_t)>& work) const = 0;
   /// Whether this process writes files and prints.
@@ -35,13 +36,13 @@ class Threads final : public Pool {
   int count_;
 };
 
-/// Uses the pool, or this number of threads if `pool` is null.
+/// Pool::map of `pool`; with null, of a pool of `threads` threads.
 std::vector<Pool::Numbers> map(const Pool* pool, int threads, std::size_t count,
                                const std::function<Pool::Numbers(std::size_t)>& work);
 
-/// A pool of all processes that `mpirun` started, with `threads` threads each; without mpirun a pool
-/// of threads. Create at most one per process. Throws std::invalid_argument under mpirun if built
-/// without MPI.
+/// Under `mpirun`: a pool of all its processes, with `threads` threads each; otherwise a pool of
+/// threads. Create at most one per process. Throws std::invalid_argument under mpirun if this
+/// program was built without MPI.
 std::unique_ptr<Pool> make_pool(int threads);
 
 }  // namespace sim

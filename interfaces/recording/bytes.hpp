@@ -28,7 +28,7 @@ void put(Bytes& out, T value) {
     out.push_back(static_cast<std::byte>(static_cast<std::uint64_t>(value) >> (8 * i)));
 }
 
-/// u32 length, then the characters.
+/// Appends the length as u32, then the characters.
 inline void put(Bytes& out, std::string_view characters) {
   put(out, static_cast<std::uint32_t>(characters.size()));
   put(out, view(characters));
@@ -37,10 +37,10 @@ inline void put(Bytes& out, std::string_view characters) {
 /// Reads forward through the bytes of a file, with bounds checks.
 class ByteReader {
  public:
-  /// `origin` is the position of the bytes in the file; for a decompressed chunk (`inside`), the
-  /// position of the chunk. Both views must outlive the reader.
-  ByteReader(ByteView bytes, std::string_view path, std::uint64_t origin, bool inside = false)
-      : bytes_(bytes), path_(path), origin_(origin), inside_(inside) {}
+  /// `in_chunk`: the bytes are the decompressed records of a chunk. `origin`: position of the bytes
+  /// in the file, or of their chunk. `bytes` and `path` must outlive the reader.
+  ByteReader(ByteView bytes, std::string_view path, std::uint64_t origin, bool in_chunk = false)
+      : bytes_(bytes), path_(path), origin_(origin), in_chunk_(in_chunk) {}
 
   template <std::unsigned_integral T>
   T integer(const char* what) {
@@ -53,26 +53,28 @@ class ByteReader {
   std::string characters(const char* what) {
     return std::string(text(take(integer<std::uint32_t>(what), what)));
   }
-  /// The next `size` bytes. Throws RecordingError when there are fewer.
+  /// Removes and returns the next `size` bytes. `what` names them in the error. Throws
+  /// RecordingError when fewer bytes remain.
   ByteView take(std::uint64_t size, const char* what) {
-    if (size > bytes_.size() - at_)
+    if (size > bytes_.size() - position_)
       fail(std::string(what) + " needs " + std::to_string(size) + " bytes, its record has " +
-           std::to_string(bytes_.size() - at_) + " left");
-    const ByteView taken = bytes_.subspan(at_, static_cast<std::size_t>(size));
-    at_ += taken.size();
+           std::to_string(bytes_.size() - position_) + " left");
+    const ByteView taken = bytes_.subspan(position_, static_cast<std::size_t>(size));
+    position_ += taken.size();
     return taken;
   }
-  /// A reader of the next `size` bytes only.
+  /// Removes the next `size` bytes and returns a reader of them.
   ByteReader part(std::uint64_t size, const char* what) {
-    const std::uint64_t start = place();
-    return {take(size, what), path_, start, inside_};
+    const std::uint64_t start = file_position();
+    return {take(size, what), path_, start, in_chunk_};
   }
-  ByteView rest() { return take(bytes_.size() - at_, "the rest"); }
-  bool empty() const { return at_ == bytes_.size(); }
-  std::size_t at() const { return at_; }
-  std::uint64_t place() const { return inside_ ? origin_ : origin_ + at_; }
+  ByteView rest() { return take(bytes_.size() - position_, "the rest"); }
+  bool empty() const { return position_ == bytes_.size(); }
+  std::size_t position() const { return position_; }
+  /// Position in the file; inside a chunk, the position of the chunk.
+  std::uint64_t file_position() const { return in_chunk_ ? origin_ : origin_ + position_; }
   [[noreturn]] void fail(const std::string& what) const {
-    throw error_at(path_, place(), what + (inside_ ? " (inside this chunk)" : ""),
+    throw error_at(path_, file_position(), what + (in_chunk_ ? " (inside this chunk)" : ""),
                    recover_remedy(path_));
   }
 
@@ -80,8 +82,8 @@ class ByteReader {
   ByteView bytes_;
   std::string_view path_;
   std::uint64_t origin_;
-  bool inside_;
-  std::size_t at_ = 0;
+  bool in_chunk_;
+  std::size_t position_ = 0;
 };
 
 }  // namespace recording

@@ -20,23 +20,24 @@ using Values = std::vector<Value>;
 struct Members {
   const Structure* type = nullptr;
   Values fields;
-  const Value* find(std::string_view name) const;  ///< nullptr: no such field
+  const Value* find(std::string_view name) const;  ///< null: no such field
 };
 
 /// Any value in a message. Integers keep their sign, floats their width.
 struct Value {
   std::variant<bool, std::int64_t, std::uint64_t, float, double, std::string, Values, Members> data;
 
-  /// The number as a double; nothing for text, arrays and structures.
+  /// A number or bool as a double; empty for text, arrays and structures.
   std::optional<double> number() const;
   const std::string* text() const { return std::get_if<std::string>(&data); }
   const Values* elements() const { return std::get_if<Values>(&data); }
   const Members* members() const { return std::get_if<Members>(&data); }
 };
 
-/// Decodes a message with its 4-byte encapsulation. Throws RecordingError (field, byte, what) when it
-/// does not fit the type; never reads past its end, never allocates more than its length allows.
-/// The result points into `type`, which must outlive it and must have passed `check`.
+/// Decodes a message, including its 4-byte encapsulation. Throws RecordingError (field, byte, what)
+/// when the message does not match the type. Never reads beyond the message. A wrong length in the
+/// message cannot cause a large allocation. The result points into `type`: `type` must outlive it
+/// and must have passed `check`.
 Members decode_cdr(const TypeDescription& type, ByteView message);
 
 /// The fields at the beginning of every message of this project.
@@ -45,10 +46,12 @@ struct Header {
   std::optional<std::int64_t> stamp_ns;
   std::optional<std::uint64_t> sequence;
 };
-/// Decodes up to `stamp_ns` and `sequence`; stops at a sequence or array before them.
+/// Decodes the fields up to `stamp_ns` and `sequence`; stops at the first sequence, array or
+/// structure.
 Header header_of(const TypeDescription& type, ByteView message);
 
-/// The value as text that reads back equal; text unchanged; arrays and structures as JSON.
+/// The value as text: a number with the fewest digits that read back equal, text unchanged, arrays
+/// and structures as JSON.
 std::string to_text(const Value& value);
 std::string to_json(const Members& members);
 

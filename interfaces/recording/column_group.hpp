@@ -9,7 +9,8 @@
 
 namespace recording {
 
-/// The columns of one actuator or joint, found by name and signal, all as long as the table.
+/// Columns of several owners (actuators, joints or ECU channels), addressed by owner and signal.
+/// Rows that were not set are NaN.
 class ColumnGroup {
  public:
   void set(const std::string& owner, const char* signal, std::size_t row, double value) {
@@ -21,6 +22,7 @@ class ColumnGroup {
     column->values[row] = value;
   }
   bool has(const std::string& owner) const { return by_owner_.contains(owner); }
+  /// Appends all columns to the table as `<owner>.<signal>`, each with `rows` values.
   void move_into(Table& table, std::size_t rows) {
     for (const std::string& owner : order_)
       for (Column& column : by_owner_[owner]) {

@@ -4,8 +4,8 @@
 
 #include "interfaces/robot/robot.hpp"
 
-/// The columns of a robot's frames (table.hpp), in the order in which they are written:
-/// six signals of each actuator, then each joint that has an angle or a quaternion.
+/// Names of the columns of a robot's table (table.hpp), in the order of writing: six signals of
+/// each actuator, then the angle or quaternion of each joint.
 namespace recording {
 
 inline constexpr const char* actuator_signals[] = {"mode",      "reference", "voltage_V",

@@ -35,9 +35,11 @@ Bytes decompress(ByteView bytes, const std::string& compression, std::uint64_t s
   if (declared != size && declared != ZSTD_CONTENTSIZE_UNKNOWN)
     place.fail("a chunk's size and that of its zstd frame differ");
   Bytes out(static_cast<std::size_t>(size));
-  const std::size_t got = ZSTD_decompress(out.data(), out.size(), bytes.data(), bytes.size());
-  if (ZSTD_isError(got)) place.fail(std::string("zstd: ") + ZSTD_getErrorName(got));
-  if (got != size) place.fail("a chunk contains fewer bytes than it declares");
+  const std::size_t decompressed_bytes =
+      ZSTD_decompress(out.data(), out.size(), bytes.data(), bytes.size());
+  if (ZSTD_isError(decompressed_bytes))
+    place.fail(std::string("zstd: ") + ZSTD_getErrorName(decompressed_bytes));
+  if (decompressed_bytes != size) place.fail("a chunk contains fewer bytes than it declares");
   return out;
 }
 
@@ -47,14 +49,15 @@ Bytes decompress_start(ByteView bytes, const std::string& compression, std::uint
   Bytes out(static_cast<std::size_t>(std::min(size, max_chunk_bytes)));
   const std::unique_ptr<ZSTD_DStream, decltype(&ZSTD_freeDStream)> stream(ZSTD_createDStream(),
                                                                           ZSTD_freeDStream);
-  ZSTD_inBuffer in{bytes.data(), bytes.size(), 0};
-  ZSTD_outBuffer to{out.data(), out.size(), 0};
-  while (in.pos < in.size && to.pos < to.size) {
-    const std::size_t before = in.pos + to.pos;
-    if (ZSTD_isError(ZSTD_decompressStream(stream.get(), &to, &in)) || in.pos + to.pos == before)
+  ZSTD_inBuffer input{bytes.data(), bytes.size(), 0};
+  ZSTD_outBuffer output{out.data(), out.size(), 0};
+  while (input.pos < input.size && output.pos < output.size) {
+    const std::size_t progress = input.pos + output.pos;
+    if (ZSTD_isError(ZSTD_decompressStream(stream.get(), &output, &input)) ||
+        input.pos + output.pos == progress)
       break;
   }
-  out.resize(to.pos);
+  out.resize(output.pos);
   return out;
 }
 

@@ -14,15 +14,17 @@
 namespace recording {
 namespace {
 
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // UTF-8, written by Excel
+
 struct Cell {
   std::string text;
-  std::size_t column = 1;  ///< of its first character in the line, from 1
+  std::size_t column = 1;  ///< position of its first character in the line, from 1
 };
 
 class Parser {
  public:
   Parser(const std::string& path, std::string_view text) : path_(path), rest_(text) {
-    if (rest_.starts_with("\xEF\xBB\xBF")) rest_.remove_prefix(3);
+    if (rest_.starts_with(byte_order_mark)) rest_.remove_prefix(byte_order_mark.size());
   }
 
   Table run() {
@@ -98,25 +100,26 @@ class Parser {
   void take_name(const Cell& cell) {
     const std::string& name = cell.text;
     const std::string_view signal = signal_of(name);
-    const auto& known = known_signals();
+    const auto& signals = known_signals();
     if (table_.find(name)) fail(cell.column, "column \"" + name + "\" occurs twice", "remove one");
     constexpr std::array other_times{"t", "time", "time_ms", "time_us", "time_ns"};
     if (std::ranges::find(other_times, name) != other_times.end())
       fail(cell.column, "unknown column " + xml::quote(name), "name it time_s, in seconds");
     if (name != "time_s" &&
-        (signal.size() == name.size() || std::ranges::find(known, signal) == known.end()))
+        (signal.size() == name.size() || std::ranges::find(signals, signal) == signals.end()))
       fail(cell.column, "unknown column " + xml::quote(name),
            signal.size() == name.size() ? "name it <actuator or joint>.<signal>"
-                                        : xml::did_you_mean(name, known_of(name, signal)));
+                                        : xml::did_you_mean(name, signals_of_owner(name, signal)));
     order_.push_back(order_.size());
     table_.columns.push_back({name, {}});
   }
 
-  /// The signals of that owner that the table contains.
-  static std::vector<std::string> known_of(const std::string& name, std::string_view signal) {
+  /// All valid column names of the owner in `name`.
+  static std::vector<std::string> signals_of_owner(const std::string& name,
+                                                   std::string_view signal) {
     const std::string owner = name.substr(0, name.size() - signal.size());
     std::vector<std::string> all;
-    for (const auto& known : known_signals()) all.push_back(owner + std::string(known));
+    for (const auto& valid : known_signals()) all.push_back(owner + std::string(valid));
     return all;
   }
 

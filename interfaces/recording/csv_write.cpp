@@ -36,8 +36,8 @@ void write_csv(const Table& table, std::ostream& out) {
   for (std::size_t r = 0; r < table.rows(); ++r) {
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
       const double value = table.columns[c].values[r];
-      const bool word = holds_mode(table.columns[c].name) && !std::isnan(value);
-      put(word ? erp::name_of(static_cast<erp::Mode>(value)) : csv_number(value), c);
+      const bool is_mode = holds_mode(table.columns[c].name) && !std::isnan(value);
+      put(is_mode ? erp::name_of(static_cast<erp::Mode>(value)) : csv_number(value), c);
     }
     end_row();
   }

@@ -7,7 +7,7 @@
 /// Recordings: MCAP files, message schemas, and tables for computation.
 namespace recording {
 
-/// An error in a recording: place, what, remedy.
+/// An error in a recording; the message contains place, what and remedy.
 struct RecordingError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

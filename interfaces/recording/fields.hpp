@@ -5,7 +5,7 @@
 #include "interfaces/recording/cdr.hpp"
 #include "interfaces/recording/table.hpp"
 
-/// Fields of a decoded message by name; a missing field gives NaN, 0 or an empty text.
+/// Fields of a decoded message by name. A missing field gives NaN, 0, an empty text or no elements.
 namespace recording {
 
 inline double number_in(const Members& members, std::string_view field) {
@@ -21,12 +21,12 @@ inline std::string text_in(const Members& members, std::string_view field) {
   const Value* value = members.find(field);
   return value && value->text() ? *value->text() : std::string();
 }
-template <class Use>
-void each_in(const Members& members, std::string_view field, Use&& use) {
+template <class Callback>
+void each_in(const Members& members, std::string_view field, Callback&& callback) {
   const Value* value = members.find(field);
   if (!value || !value->elements()) return;
   for (const Value& element : *value->elements())
-    if (element.members()) use(*element.members());
+    if (element.members()) callback(*element.members());
 }
 template <class Integer>
 Integer integer_in(const Members& members, std::string_view field) {

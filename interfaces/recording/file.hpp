@@ -6,11 +6,11 @@
 
 namespace recording {
 
-/// A file for appending. A failed append is undone, so the file always ends with a complete append.
-/// Every error throws RecordingError with path and system error.
+/// A file for appending. A failed append is undone: the file never ends with part of it. Every
+/// error throws RecordingError with path and system error.
 class OutputFile {
  public:
-  /// `replace`: overwrite an existing file; otherwise it is refused.
+  /// `replace`: overwrites an existing file; without it an existing file is an error.
   OutputFile(std::string path, bool replace);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
@@ -20,7 +20,7 @@ class OutputFile {
   void sync();   ///< waits until the data is on the disk
   void close();  ///< sync, then close
   std::uint64_t size() const { return size_; }
-  std::uint32_t crc() const { return crc_; }  ///< of everything appended
+  std::uint32_t crc() const { return crc_; }  ///< CRC-32 of all appended bytes
   bool is_open() const { return descriptor_ >= 0; }
   const std::string& path() const { return path_; }
 
@@ -40,7 +40,7 @@ class InputFile {
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
 
-  /// `size` bytes from `offset`. Throws RecordingError when the file does not have them.
+  /// Returns `size` bytes from `offset`. Throws RecordingError when the file is too short.
   Bytes read(std::uint64_t offset, std::uint64_t size) const;
   std::uint64_t size() const { return size_; }
   const std::string& path() const { return path_; }

@@ -20,7 +20,7 @@ void take(const Members& message, const char* sequence_field, JointTracks& track
     JointTrack& track = tracks[text_in(sample, "name")];
     track.dof = static_cast<int>(flags_in(sample, "dof"));
     for (std::size_t i = 0; i < 4; ++i)
-      track.at[sequence][i] = (*position->elements())[i].number().value_or(not_taken);
+      track.positions[sequence][i] = (*position->elements())[i].number().value_or(not_taken);
   });
 }
 
@@ -36,8 +36,9 @@ JointTracks joint_tracks(const McapReader& recording, const std::string& source)
   std::map<std::uint16_t, TypeDescription> types;
   for (const auto& [id, channel] : recording.channels()) {
     const auto schema = recording.schemas().find(channel.schema_id);
-    const bool ours = channel.topic == "joint_state" || channel.topic == target_topic;
-    if (ours && schema != recording.schemas().end() && schema->second.encoding == "ros2msg")
+    const bool is_joint_topic = channel.topic == "joint_state" || channel.topic == target_topic;
+    if (is_joint_topic && schema != recording.schemas().end() &&
+        schema->second.encoding == "ros2msg")
       types[channel.schema_id] = parse_ros2msg(schema->second.name, schema->second.data);
   }
   JointTracks tracks;
@@ -46,10 +47,10 @@ JointTracks joint_tracks(const McapReader& recording, const std::string& source)
     const auto type = types.find(message.channel.schema_id);
     if (type == types.end()) return;
     const Members members = decode_cdr(type->second, message.data);
-    const bool target = message.channel.topic == target_topic;
-    const std::string message_source = target ? target_topic : text_in(members, "source");
+    const bool is_target = message.channel.topic == target_topic;
+    const std::string message_source = is_target ? target_topic : text_in(members, "source");
     sources.insert(message_source);
-    if (message_source == source) take(members, target ? "answers" : "sequence", tracks);
+    if (message_source == source) take(members, is_target ? "answers" : "sequence", tracks);
   });
   if (!tracks.empty()) return tracks;
   throw RecordingError(recording.path() + ": contains no joints of \"" + source +

@@ -11,13 +11,13 @@ class McapReader;
 
 struct JointTrack {
   int dof = 0;  ///< 1: position[0] is an angle, rad; 3: a unit quaternion w x y z
-  std::map<std::uint64_t, std::array<double, 4>> at;  ///< by sequence of the frame
+  std::map<std::uint64_t, std::array<double, 4>> positions;  ///< by sequence of the frame
 };
 using JointTracks = std::map<std::string, JointTrack>;  ///< by joint name
 
-/// The positions of joint_target (`source` "joint_target") or of joint_state by its source: "sim",
-/// "pose_estimator", "motion_capture". For a repeated frame, the last message applies. Throws
-/// RecordingError with the recorded sources when there is no such source.
+/// The joint positions of one source: "joint_target" (that topic), or "sim", "pose_estimator",
+/// "motion_capture" (joint_state). If a frame occurs twice, its last message applies. Throws
+/// RecordingError when the source was not recorded; it lists the recorded sources.
 JointTracks joint_tracks(const McapReader& recording, const std::string& source);
 
 }  // namespace recording

@@ -14,17 +14,17 @@ namespace {
 
 constexpr std::size_t max_cached_bytes = std::size_t{256} << 20;  // chosen
 
-/// Loads regions and keeps the most recently used ones, so that a recording whose chunks all overlap
-/// in time needs limited memory.
+/// Loads regions and keeps the most recently used ones in memory. The limit applies also to a
+/// recording in which all chunks overlap in time.
 class Cache {
  public:
   Cache(const InputFile& file, const std::vector<Region>& regions)
       : file_(file), regions_(regions) {}
 
   const LoadedRegion& get(std::size_t i) {
-    const auto known = std::ranges::find(recent_, i, &Entry::first);
-    if (known != recent_.end()) {
-      recent_.splice(recent_.begin(), recent_, known);
+    const auto cached = std::ranges::find(recent_, i, &Entry::first);
+    if (cached != recent_.end()) {
+      recent_.splice(recent_.begin(), recent_, cached);
       return recent_.front().second;
     }
     recent_.emplace_front(i, load(file_, regions_[i]));
@@ -47,17 +47,18 @@ class Cache {
 /// Read position in one region.
 struct Cursor {
   std::shared_ptr<const MessageIndex> messages;
-  std::size_t region, next;
-  std::uint64_t time_ns() const { return (*messages)[next].first; }
+  std::size_t region, next_message;
+  std::uint64_t time_ns() const { return (*messages)[next_message].first; }
 };
-struct Later {
+struct IsLater {
   bool operator()(const Cursor& a, const Cursor& b) const {
     return std::pair(a.time_ns(), a.region) > std::pair(b.time_ns(), b.region);
   }
 };
 
-struct Damaged : McapReader {
-  explicit Damaged(const std::string& path) : McapReader(path, true) {}
+/// Skips damaged records.
+struct TolerantReader : McapReader {
+  explicit TolerantReader(const std::string& path) : McapReader(path, true) {}
 };
 
 void copy(const McapReader& reader, McapWriter& writer) {
@@ -78,42 +79,44 @@ void copy(const McapReader& reader, McapWriter& writer) {
 
 }  // namespace
 
-void McapReader::for_each(const std::function<void(const Message&)>& use) const {
+void McapReader::for_each(const std::function<void(const Message&)>& callback) const {
   const auto& regions = contents_.regions;
-  std::vector<std::size_t> by_start(regions.size());
-  std::iota(by_start.begin(), by_start.end(), std::size_t{0});
-  std::ranges::stable_sort(by_start, {}, [&](std::size_t i) { return regions[i].first_ns; });
-  std::priority_queue<Cursor, std::vector<Cursor>, Later> open;
+  std::vector<std::size_t> regions_by_start(regions.size());
+  std::iota(regions_by_start.begin(), regions_by_start.end(), std::size_t{0});
+  std::ranges::stable_sort(regions_by_start, {},
+                           [&](std::size_t i) { return regions[i].first_ns; });
+  std::priority_queue<Cursor, std::vector<Cursor>, IsLater> open_cursors;
   Cache cache(file_, regions);
-  auto next = by_start.begin();
+  auto next_region = regions_by_start.begin();
   for (;;) {
-    while (next != by_start.end() &&
-           (open.empty() || regions[*next].first_ns <= open.top().time_ns())) {
-      auto index = std::make_shared<const MessageIndex>(cache.get(*next).messages);
-      if (!index->empty()) open.push({std::move(index), *next, 0});
-      ++next;
+    while (
+        next_region != regions_by_start.end() &&
+        (open_cursors.empty() || regions[*next_region].first_ns <= open_cursors.top().time_ns())) {
+      auto index = std::make_shared<const MessageIndex>(cache.get(*next_region).messages);
+      if (!index->empty()) open_cursors.push({std::move(index), *next_region, 0});
+      ++next_region;
     }
-    if (open.empty()) return;
-    Cursor cursor = open.top();
-    open.pop();
-    emit(cache.get(cursor.region), cursor.next, use);
-    if (++cursor.next < cursor.messages->size()) open.push(std::move(cursor));
+    if (open_cursors.empty()) return;
+    Cursor cursor = open_cursors.top();
+    open_cursors.pop();
+    emit(cache.get(cursor.region), cursor.next_message, callback);
+    if (++cursor.next_message < cursor.messages->size()) open_cursors.push(std::move(cursor));
   }
 }
 
 void McapReader::emit(const LoadedRegion& region, std::size_t i,
-                      const std::function<void(const Message&)>& use) const {
+                      const std::function<void(const Message&)>& callback) const {
   ByteView data;
   const bool exists = i < region.messages.size();
   const MessageHead head = exists ? region.message(i, path(), data) : MessageHead{};
   const auto channel = contents_.channels.find(head.channel_id);
   if (!exists || channel == contents_.channels.end())
     throw RecordingError(path() + ": the file changed while it was read; read a copy");
-  use({channel->second, head.sequence, head.log_time_ns, head.publish_time_ns, data});
+  callback({channel->second, head.sequence, head.log_time_ns, head.publish_time_ns, data});
 }
 
 Recovered recover(const std::string& in, const std::string& out) {
-  const Damaged reader(in);
+  const TolerantReader reader(in);
   Recovered recovered{.problems = reader.contents().problems};
   if (!reader.truncation().empty()) recovered.problems.push_back(reader.truncation());
   McapWriter writer(out);

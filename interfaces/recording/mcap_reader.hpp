@@ -34,9 +34,9 @@ class McapReader {
   }
   const std::string& path() const { return file_.path(); }
 
-  /// Calls `use` for every message in the order of log times; equal times in the order of the file.
-  /// Keeps chunks that overlap in time in memory, up to 256 MB.
-  void for_each(const std::function<void(const Message&)>& use) const;
+  /// Calls `callback` for every message, sorted by log time; equal times keep the order of the
+  /// file. Chunks that overlap in time stay in memory, up to 256 MB.
+  void for_each(const std::function<void(const Message&)>& callback) const;
 
  protected:
   McapReader(std::string path, bool tolerant)
@@ -44,7 +44,7 @@ class McapReader {
 
  private:
   void emit(const LoadedRegion& region, std::size_t i,
-            const std::function<void(const Message&)>& use) const;
+            const std::function<void(const Message&)>& callback) const;
 
   InputFile file_;
   Contents contents_;
@@ -55,9 +55,9 @@ struct Recovered {
   std::vector<std::string> problems;  ///< unreadable parts, with their places
 };
 
-/// Copies everything readable in `in` to the new, complete file `out`. Omits a chunk whose checksum
-/// fails: a gap is better than a wrong number.
-/// Throws RecordingError when `in` is not an MCAP file, or `out` exists or cannot be written.
+/// Copies everything readable in `in` to the new, complete file `out`. Omits each chunk with a
+/// wrong checksum: a gap is better than a wrong number. Throws RecordingError when `in` is not an
+/// MCAP file, or `out` exists or cannot be written.
 Recovered recover(const std::string& in, const std::string& out);
 
 }  // namespace recording

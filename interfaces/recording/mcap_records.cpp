@@ -170,9 +170,9 @@ Attachment get_attachment(ByteReader& in) {
   attachment.media_type = in.characters("an attachment's media type");
   const ByteView data =
       in.take(in.integer<std::uint64_t>("an attachment's length"), "an attachment");
-  const ByteView summed = body.take(in.at() - body.at(), "an attachment");
+  const ByteView checksummed_bytes = body.take(in.position() - body.position(), "an attachment");
   const auto crc = in.integer<std::uint32_t>("an attachment's checksum");
-  if (crc != 0 && crc != crc32_of(summed))
+  if (crc != 0 && crc != crc32_of(checksummed_bytes))
     body.fail("the checksum of the attachment \"" + attachment.name + "\" does not match");
   attachment.data = text(data);
   return attachment;
@@ -203,10 +203,10 @@ Metadata get_metadata(ByteReader& in) {
   return metadata;
 }
 
-std::uint32_t crc32_of(ByteView bytes, std::uint32_t before) {
-  if (bytes.empty()) return before;  // zlib resets the checksum for a null pointer
+std::uint32_t crc32_of(ByteView bytes, std::uint32_t initial_crc) {
+  if (bytes.empty()) return initial_crc;  // zlib resets the checksum for a null pointer
   return static_cast<std::uint32_t>(
-      crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+      crc32_z(initial_crc, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
 }  // namespace recording

@@ -8,12 +8,12 @@
 
 #include "interfaces/recording/bytes.hpp"
 
-/// Records of MCAP 0, from the specification at mcap.dev: u8 op, u64 length of the body, body.
-/// Times are ns since 1970, or simulated time.
+/// Records of MCAP 0, as specified at mcap.dev: u8 record type (`Op`), u64 length of the body,
+/// body. Times are nanoseconds since 1970, or nanoseconds of simulated time.
 namespace recording {
 
 inline constexpr std::array<std::uint8_t, 8> magic{0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'};
-inline constexpr std::size_t record_head_bytes = 9;
+inline constexpr std::size_t record_head_bytes = 9;  ///< record type and length
 
 enum class Op : std::uint8_t {
   header = 1,
@@ -84,7 +84,8 @@ struct Metadata {
   TextMap values;
 };
 
-using MessageIndex = std::vector<std::pair<std::uint64_t, std::uint64_t>>;  ///< log time, offset
+/// Log time in ns and offset of each message.
+using MessageIndex = std::vector<std::pair<std::uint64_t, std::uint64_t>>;
 
 /// Starts a record and returns its position; `end_record` fills in its length.
 std::size_t begin_record(Bytes& out, Op op);
@@ -107,7 +108,8 @@ ChunkHead get_chunk(ByteReader& in, ByteView& records);
 Attachment get_attachment(ByteReader& in);  ///< checks its CRC
 Metadata get_metadata(ByteReader& in);
 
-/// zlib's crc32, which MCAP uses for all checksums.
-std::uint32_t crc32_of(ByteView bytes, std::uint32_t before = 0);
+/// CRC-32 of zlib, which MCAP uses for all checksums. `initial_crc`: checksum of the preceding
+/// bytes.
+std::uint32_t crc32_of(ByteView bytes, std::uint32_t initial_crc = 0);
 
 }  // namespace recording

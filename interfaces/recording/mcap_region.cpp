@@ -7,20 +7,20 @@
 namespace recording {
 namespace {
 
-/// Stores the positions of the messages in `region.records`. At an incomplete record it stops if the
-/// region is cut, and throws otherwise.
-void index_messages(LoadedRegion& region, std::string_view path, bool cut) {
+/// Stores the positions of the messages in `region.records`. At an incomplete record it stops if
+/// the region is truncated, and throws otherwise.
+void index_messages(LoadedRegion& region, std::string_view path, bool truncated) {
   ByteReader in(region.records, path, region.origin, true);
   try {
     while (!in.empty()) {
-      const std::size_t start = in.at();
+      const std::size_t start = in.position();
       const RecordHead head = get_record_head(in);
       ByteReader body = in.part(head.length, "a record in a chunk");
       if (head.op == Op::message)
         region.messages.emplace_back(get_message(body).log_time_ns, start);
     }
   } catch (const RecordingError&) {
-    if (!cut) throw;
+    if (!truncated) throw;
   }
   std::stable_sort(region.messages.begin(), region.messages.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -60,12 +60,12 @@ bool is_valid(Op op, ByteReader in) {
   }
 }
 
-bool is_valid_at(const InputFile& file, std::uint64_t place) {
-  if (file.size() - place < record_head_bytes) return false;
-  const Bytes start = file.read(place, record_head_bytes);
-  ByteReader in(start, file.path(), place);
+bool is_valid_at(const InputFile& file, std::uint64_t position) {
+  if (file.size() - position < record_head_bytes) return false;
+  const Bytes start = file.read(position, record_head_bytes);
+  ByteReader in(start, file.path(), position);
   const RecordHead head = get_record_head(in);
-  const std::uint64_t body = place + record_head_bytes;
+  const std::uint64_t body = position + record_head_bytes;
   if (head.length > file.size() - body) return false;
   const Bytes bytes = file.read(body, head.length);
   return is_valid(head.op, ByteReader(bytes, file.path(), body));
@@ -85,12 +85,12 @@ RecordHead get_record_head(ByteReader& in) {
 }
 
 Bytes unpack(ByteReader in) {
-  const ByteReader place = in;
+  const ByteReader chunk = in;
   ByteView packed;
   const ChunkHead head = get_chunk(in, packed);
-  Bytes records = decompress(packed, head.compression, head.uncompressed_bytes, place);
+  Bytes records = decompress(packed, head.compression, head.uncompressed_bytes, chunk);
   if (head.uncompressed_crc != 0 && head.uncompressed_crc != crc32_of(records))
-    place.fail("the chunk's checksum does not match its records");
+    chunk.fail("the chunk's checksum does not match its records");
   return records;
 }
 
@@ -111,14 +111,14 @@ LoadedRegion load(const InputFile& file, const Region& region) {
     loaded.records = std::move(bytes);
   } else {
     ByteReader in(ByteView(bytes).subspan(record_head_bytes), file.path(), region.offset);
-    loaded.records = region.cut ? unpack_start(in) : unpack(in);
+    loaded.records = region.truncated ? unpack_start(in) : unpack(in);
   }
-  index_messages(loaded, file.path(), region.cut);
+  index_messages(loaded, file.path(), region.truncated);
   return loaded;
 }
 
 std::uint64_t next_valid_record(const InputFile& file, std::uint64_t from) {
-  constexpr std::uint64_t window = 1u << 16;
+  constexpr std::uint64_t window = 1u << 16;  // bytes per read, chosen
   for (std::uint64_t base = from; base < file.size(); base += window) {
     const Bytes bytes = file.read(base, std::min(window, file.size() - base));
     for (std::uint64_t i = 0; i < bytes.size(); ++i) {

@@ -6,17 +6,17 @@
 
 namespace recording {
 
-/// A part of a file with messages: a chunk, or messages between chunks.
+/// A part of a file that contains messages: a chunk, or consecutive messages outside chunks.
 struct Region {
   std::uint64_t offset = 0, length = 0;  ///< of its records in the file, including their heads
   std::uint64_t first_ns = 0, last_ns = 0;
   std::uint64_t messages = 0;
   bool chunk = false;
-  bool cut = false;  ///< the file ends inside this chunk
+  bool truncated = false;  ///< the file ends inside this chunk
   void count(const MessageHead& head);
 };
 
-/// The decompressed records of a region, and the positions of its messages, by log time.
+/// The decompressed records of a region, and the positions of its messages, sorted by log time.
 struct LoadedRegion {
   Bytes records;
   MessageIndex messages;  ///< log time, offset of the message's record
@@ -26,8 +26,8 @@ struct LoadedRegion {
   MessageHead message(std::size_t i, std::string_view path, ByteView& data) const;
 };
 
-/// Loads a region; of a truncated one, its complete messages. Throws RecordingError when the region is
-/// damaged.
+/// Loads a region; of a truncated region only the complete messages. Throws RecordingError when the
+/// region is damaged.
 LoadedRegion load(const InputFile& file, const Region& region);
 
 struct RecordHead {
@@ -39,8 +39,9 @@ RecordHead get_record_head(ByteReader& in);
 /// The decompressed records of a chunk with the body `in`; verifies size and checksum.
 Bytes unpack(ByteReader in);
 
-/// Position of the first valid record at or after `from`: a schema, channel, attachment or chunk whose
-/// inner lengths fill it exactly. The end of the file if there is none.
+/// Position of the first valid record at or after `from`; the end of the file if there is none.
+/// Only schemas, channels, attachments and chunks count. The lengths inside a valid record add up
+/// to its own length.
 std::uint64_t next_valid_record(const InputFile& file, std::uint64_t from);
 
 }  // namespace recording

@@ -5,43 +5,45 @@
 namespace recording {
 namespace {
 
-constexpr std::uint64_t longest_loose_region = 1u << 20;
+/// Largest region of messages outside chunks; chosen: the size of a chunk.
+constexpr std::uint64_t max_message_region_bytes = 1u << 20;
 
 class Scanner {
  public:
-  /// `known`: schemas and channels found by an earlier pass, used when their own record is damaged.
-  Scanner(const InputFile& file, bool tolerant, Contents known = {})
+  /// `earlier`: result of an earlier pass; its schemas and channels replace those in damaged
+  /// records.
+  Scanner(const InputFile& file, bool tolerant, Contents earlier = {})
       : file_(file), tolerant_(tolerant) {
-    contents_.schemas = std::move(known.schemas);
-    contents_.channels = std::move(known.channels);
+    contents_.schemas = std::move(earlier.schemas);
+    contents_.channels = std::move(earlier.channels);
   }
 
   Contents run() {
     check_start();
-    while (step()) {
+    while (read_record()) {
     }
     return std::move(contents_);
   }
 
  private:
   void check_start();
-  bool step();
+  bool read_record();
   bool take(Op op, ByteReader in, std::uint64_t length);
   bool end_early(const RecordHead& head);
-  void take_cut_chunk();
+  void take_truncated_chunk();
   void take_chunk(ByteReader in, Region region);
-  void take_loose(ByteReader in, Region region);
+  void take_message(ByteReader in, Region region);
   void check_footer(ByteReader in, std::uint64_t length);
   void add(Schema schema, const ByteReader& in);
   void add(Channel channel, const ByteReader& in);
   void require_channel(const MessageHead& head, const ByteReader& in) const;
   void count(const MessageHead& head);
-  void cut(const std::string& what, std::uint64_t place);
+  void set_truncation(const std::string& what, std::uint64_t place);
 
   const InputFile& file_;
   const bool tolerant_;
   Contents contents_;
-  std::uint64_t at_ = 0;
+  std::uint64_t position_ = 0;
   std::uint32_t crc_ = 0, data_crc_ = 0;
 };
 
@@ -51,39 +53,42 @@ void Scanner::check_start() {
   if (start.empty() || !std::ranges::equal(start, expected))
     throw error_at(file_.path(), 0, "this is not an MCAP file",
                    "give a recording made by the logger");
-  if (start.size() < magic.size()) cut("the file ends inside its first 8 bytes", start.size());
+  if (start.size() < magic.size())
+    set_truncation("the file ends inside its first 8 bytes", start.size());
   crc_ = crc32_of(start);
-  at_ = start.size();
+  position_ = start.size();
 }
 
-/// Reads the record at `at_`; false at the end.
-bool Scanner::step() {
-  const std::uint64_t left = file_.size() - at_;
-  if (left < record_head_bytes)
-    return cut(left ? "the file ends inside a record" : "the file ends without a footer", at_),
+/// Reads the record at `position_`. Returns false at the end of the file or of its data.
+bool Scanner::read_record() {
+  const std::uint64_t remaining_bytes = file_.size() - position_;
+  if (remaining_bytes < record_head_bytes)
+    return set_truncation(
+               remaining_bytes ? "the file ends inside a record" : "the file ends without a footer",
+               position_),
            false;
-  const Bytes start = file_.read(at_, record_head_bytes);
-  ByteReader in(start, file_.path(), at_);
+  const Bytes start = file_.read(position_, record_head_bytes);
+  ByteReader in(start, file_.path(), position_);
   const RecordHead head = get_record_head(in);
-  if (head.length > left - record_head_bytes) return end_early(head);
-  const Bytes body = file_.read(at_ + record_head_bytes, head.length);
+  if (head.length > remaining_bytes - record_head_bytes) return end_early(head);
+  const Bytes body = file_.read(position_ + record_head_bytes, head.length);
   data_crc_ = crc_;
   crc_ = crc32_of(body, crc32_of(start, crc_));
-  const std::uint64_t end = at_ + record_head_bytes + head.length;
+  const std::uint64_t end = position_ + record_head_bytes + head.length;
   try {
-    if (!take(head.op, ByteReader(body, file_.path(), at_ + record_head_bytes), head.length))
+    if (!take(head.op, ByteReader(body, file_.path(), position_ + record_head_bytes), head.length))
       return false;
-    at_ = end;
+    position_ = end;
   } catch (const RecordingError& error) {
     if (!tolerant_) throw;
     contents_.problems.emplace_back(error.what());
-    at_ = std::min(next_valid_record(file_, at_ + 1), std::max(end, at_ + 1));
+    position_ = std::min(next_valid_record(file_, position_ + 1), std::max(end, position_ + 1));
   }
   return true;
 }
 
 bool Scanner::take(Op op, ByteReader in, std::uint64_t length) {
-  const Region here{.offset = at_, .length = record_head_bytes + length};
+  const Region region{.offset = position_, .length = record_head_bytes + length};
   if (op == Op{0}) in.fail("a record has the kind 0");
   switch (op) {
     case Op::header:
@@ -97,10 +102,10 @@ bool Scanner::take(Op op, ByteReader in, std::uint64_t length) {
       add(get_channel(in), in);
       break;
     case Op::message:
-      take_loose(in, here);
+      take_message(in, region);
       break;
     case Op::chunk:
-      take_chunk(in, here);
+      take_chunk(in, region);
       break;
     case Op::attachment:
       contents_.attachments.push_back(get_attachment(in));
@@ -116,14 +121,14 @@ bool Scanner::take(Op op, ByteReader in, std::uint64_t length) {
     case Op::footer:
       return check_footer(in, length), false;
     default:
-      break;  // indexes, and kinds that are newer than this reader
+      break;  // indexes, and record types that this reader does not know
   }
   return true;
 }
 
 void Scanner::add(Schema schema, const ByteReader& in) {
-  const auto [there, fresh] = contents_.schemas.try_emplace(schema.id, schema);
-  if (!fresh && there->second != schema)
+  const auto [existing, is_new] = contents_.schemas.try_emplace(schema.id, schema);
+  if (!is_new && existing->second != schema)
     in.fail("schema " + std::to_string(schema.id) + " is defined twice, differently");
 }
 
@@ -131,8 +136,8 @@ void Scanner::add(Channel channel, const ByteReader& in) {
   if (channel.schema_id != 0 && !contents_.schemas.contains(channel.schema_id))
     in.fail("channel " + std::to_string(channel.id) + " needs schema " +
             std::to_string(channel.schema_id) + ", which was not defined");
-  const auto [there, fresh] = contents_.channels.try_emplace(channel.id, channel);
-  if (!fresh && there->second != channel)
+  const auto [existing, is_new] = contents_.channels.try_emplace(channel.id, channel);
+  if (!is_new && existing->second != channel)
     in.fail("channel " + std::to_string(channel.id) + " is defined twice, differently");
 }
 
@@ -147,13 +152,13 @@ void Scanner::count(const MessageHead& head) {
   ++contents_.messages;
 }
 
-void Scanner::take_loose(ByteReader in, Region region) {
+void Scanner::take_message(ByteReader in, Region region) {
   const MessageHead head = get_message(in);
   require_channel(head, in);
   auto& regions = contents_.regions;
   const bool extends = !regions.empty() && !regions.back().chunk &&
                        regions.back().offset + regions.back().length == region.offset &&
-                       regions.back().length < longest_loose_region;
+                       regions.back().length < max_message_region_bytes;
   if (extends) regions.back().length += region.length;
   else regions.push_back(region);
   regions.back().count(head);
@@ -164,7 +169,7 @@ void Scanner::take_loose(ByteReader in, Region region) {
 void Scanner::take_chunk(ByteReader in, Region region) {
   const Bytes records = unpack(in);
   std::vector<MessageHead> heads;
-  ByteReader inside(records, file_.path(), at_, true);
+  ByteReader inside(records, file_.path(), position_, true);
   while (!inside.empty()) {
     const RecordHead head = get_record_head(inside);
     ByteReader body = inside.part(head.length, "a record in a chunk");
@@ -181,48 +186,54 @@ void Scanner::take_chunk(ByteReader in, Region region) {
 }
 
 void Scanner::check_footer(ByteReader in, std::uint64_t length) {
-  const ByteReader place = in;
-  const auto start = in.integer<std::uint64_t>("the summary's place");
+  const ByteReader footer_start = in;
+  const auto summary_start = in.integer<std::uint64_t>("the summary's place");
   in.integer<std::uint64_t>("the summary offsets' place");
   const auto crc = in.integer<std::uint32_t>("the summary's checksum");
-  const std::uint64_t end = at_ + record_head_bytes + length;
-  if (start > at_) place.fail("the summary starts after the footer, according to the footer");
-  if (start != 0 && crc != 0 &&
-      crc != crc32_of(file_.read(start, at_ + record_head_bytes + 16 - start)))
-    place.fail("the summary's checksum does not match");
+  constexpr std::uint64_t positions_bytes = 2 * sizeof(std::uint64_t);  // before the checksum
+  const std::uint64_t checksum_position = position_ + record_head_bytes + positions_bytes;
+  const std::uint64_t end = position_ + record_head_bytes + length;
+  if (summary_start > position_)
+    footer_start.fail("the summary starts after the footer, according to the footer");
+  if (summary_start != 0 && crc != 0 &&
+      crc != crc32_of(file_.read(summary_start, checksum_position - summary_start)))
+    footer_start.fail("the summary's checksum does not match");
   const Bytes last = file_.read(end, std::min<std::uint64_t>(file_.size() - end, magic.size() + 1));
   const auto expected = std::as_bytes(std::span(magic));
   if (last.size() < magic.size() && std::ranges::equal(last, expected.first(last.size())))
-    return cut("the file ends inside its last 8 bytes", end);
-  if (!std::ranges::equal(last, expected)) place.fail("the file does not end with MCAP's 8 bytes");
+    return set_truncation("the file ends inside its last 8 bytes", end);
+  if (!std::ranges::equal(last, expected))
+    footer_start.fail("the file does not end with MCAP's 8 bytes");
   contents_.complete = true;
 }
 
-void Scanner::cut(const std::string& what, std::uint64_t place) {
+void Scanner::set_truncation(const std::string& what, std::uint64_t place) {
   if (contents_.truncation.empty())
     contents_.truncation = file_.path() + ": byte " + std::to_string(place) + ": " + what;
 }
 
 /// Handles a record that extends beyond the end: the recorder was killed, or the length is wrong.
 bool Scanner::end_early(const RecordHead& head) {
-  cut("the file ends inside a record of " + std::to_string(head.length) + " bytes", at_);
+  set_truncation("the file ends inside a record of " + std::to_string(head.length) + " bytes",
+                 position_);
   if (!tolerant_) return false;
-  const std::uint64_t next = next_valid_record(file_, at_ + 1);
-  if (next == file_.size() && head.op == Op::chunk) take_cut_chunk();
-  at_ = next;
+  const std::uint64_t next = next_valid_record(file_, position_ + 1);
+  if (next == file_.size() && head.op == Op::chunk) take_truncated_chunk();
+  position_ = next;
   return next < file_.size();
 }
 
 /// Takes the complete messages at the start of a truncated chunk.
-void Scanner::take_cut_chunk() {
-  Region region{.offset = at_, .length = file_.size() - at_, .chunk = true, .cut = true};
+void Scanner::take_truncated_chunk() {
+  Region region{
+      .offset = position_, .length = file_.size() - position_, .chunk = true, .truncated = true};
   std::vector<MessageHead> heads;
   try {
     const LoadedRegion loaded = load(file_, region);
     ByteView data;
     for (std::size_t i = 0; i < loaded.messages.size(); ++i) {
       heads.push_back(loaded.message(i, file_.path(), data));
-      require_channel(heads.back(), ByteReader({}, file_.path(), at_));
+      require_channel(heads.back(), ByteReader({}, file_.path(), position_));
     }
   } catch (const RecordingError&) {
     return;  // the chunk's head is incomplete, or it is not a chunk
@@ -235,7 +246,7 @@ void Scanner::take_cut_chunk() {
 
 Contents scan(const InputFile& file, bool tolerant) {
   Contents contents = Scanner(file, tolerant).run();
-  // The summary repeats schemas and channels, so lost definitions may be found at the end.
+  // The summary repeats schemas and channels: a second pass can use those of damaged records.
   if (!contents.problems.empty()) return Scanner(file, true, std::move(contents)).run();
   return contents;
 }
@@ -244,7 +255,7 @@ void ChannelStatistics::count(const MessageHead& head) {
   first_ns = messages ? std::min(first_ns, head.log_time_ns) : head.log_time_ns;
   last_ns = std::max(last_ns, head.log_time_ns);
   if (messages++ > 0) {
-    // MCAP stores 32 bits of the number: a step of more than half their range is a step back.
+    // MCAP stores 32 bits of the number: a step of more than half their range is a restart.
     const std::uint32_t step = head.sequence - last_sequence;
     if (step > 0x8000'0000u) ++restarts;
     else if (step > 1) missing += step - 1;

@@ -5,8 +5,8 @@
 
 #include "interfaces/recording/mcap_region.hpp"
 
-/// One pass over an MCAP file: lists its contents and determines whether it is complete. Uses neither
-/// summary nor index, so truncated files are read by the same code.
+/// One pass over an MCAP file: lists its contents and determines whether it is complete. It uses
+/// neither summary nor index: the same code reads truncated files.
 namespace recording {
 
 /// Statistics of the messages of one channel, in the order of the file.
@@ -29,12 +29,12 @@ struct Contents {
   std::map<std::uint16_t, ChannelStatistics> statistics;
   std::uint64_t chunks = 0, messages = 0;
   bool complete = false;
-  std::string truncation;             ///< why the file is not complete: place and reason
+  std::string truncation;             ///< position and reason if the file is not complete
   std::vector<std::string> problems;  ///< damage that was skipped (tolerant scans)
 };
 
-/// `tolerant`: stores damage in `problems` and skips it; otherwise damage throws RecordingError. A
-/// truncated file is not damage: `complete` is then false and `truncation` contains the place.
+/// `tolerant`: skips damage and adds it to `problems`; otherwise damage throws RecordingError. A
+/// truncated file is not damaged: `complete` is false and `truncation` contains the position.
 Contents scan(const InputFile& file, bool tolerant = false);
 
 }  // namespace recording

@@ -9,9 +9,9 @@
 namespace recording {
 namespace {
 
-/// Larger differences of stamps come from two clocks (simulated and wall time in one recording) and do
-/// not measure how long a chunk has been open. Chosen.
-constexpr std::uint64_t another_clock_ns = 3'600'000'000'000;
+/// Stamps of two clocks (simulated and wall time) may share a recording. A larger difference of two
+/// stamps is taken for a difference of clocks, not for the duration of a chunk. Chosen: one hour.
+constexpr std::uint64_t max_open_span_ns = 3'600'000'000'000;
 constexpr std::uint16_t max_ids = std::numeric_limits<std::uint16_t>::max();
 
 void put_summary_offset(Bytes& out, Op op, std::uint64_t start, std::uint64_t length) {
@@ -94,18 +94,18 @@ void McapWriter::write(std::uint16_t channel, std::uint32_t sequence, std::uint6
   put_message(chunk_.records, {channel, sequence, log_time_ns, publish_time_ns}, data);
   ++messages_;
   ++channel_messages_[channel];
-  const std::uint64_t from_ns = chunk_.first_ns;
-  const std::uint64_t apart_ns =
-      log_time_ns > from_ns ? log_time_ns - from_ns : from_ns - log_time_ns;
-  const bool long_enough = apart_ns >= options_.chunk_span_ns && apart_ns < another_clock_ns;
+  const std::uint64_t first_ns = chunk_.first_ns;
+  const std::uint64_t span_ns =
+      log_time_ns > first_ns ? log_time_ns - first_ns : first_ns - log_time_ns;
+  const bool long_enough = span_ns >= options_.chunk_span_ns && span_ns < max_open_span_ns;
   if (long_enough || chunk_.records.size() >= options_.chunk_bytes) close_chunk();
 }
 
 void McapWriter::close_chunk() {
   if (chunk_.records.empty()) return;
   const bool zstd = options_.compression == Compression::zstd;
-  const Bytes packed = zstd ? compress_zstd(chunk_.records) : Bytes{};
-  const Bytes& records = zstd ? packed : chunk_.records;
+  const Bytes compressed = zstd ? compress_zstd(chunk_.records) : Bytes{};
+  const Bytes& records = zstd ? compressed : chunk_.records;
   ChunkIndex index;
   index.head = {chunk_.start_ns, chunk_.end_ns, chunk_.records.size(), crc32_of(chunk_.records),
                 zstd ? "zstd" : ""};

@@ -13,18 +13,18 @@ enum class Compression { none, zstd };
 struct McapOptions {
   Compression compression = Compression::zstd;
   std::size_t chunk_bytes = 1u << 20;           ///< size at which a chunk is closed, chosen
-  std::uint64_t chunk_span_ns = 1'000'000'000;  ///< span of log time at which it is closed
+  std::uint64_t chunk_span_ns = 1'000'000'000;  ///< span of log times at which it is closed, chosen
   bool replace = false;                         ///< overwrite an existing file
 };
 
 /// Writes an MCAP file: chunks with indexes, attachments, a summary. The current chunk is in memory
-/// until it is closed; `flush` writes it to the disk.
-/// Every method throws RecordingError (path, system error) when writing fails; the file then ends with
-/// its last complete record and accepts no further data.
+/// until it is closed; `flush` writes it to the disk. Every method throws RecordingError (path,
+/// system error) when writing fails; the file then ends with its last complete record and accepts
+/// no further data.
 class McapWriter {
  public:
   explicit McapWriter(std::string path, McapOptions options = {});
-  /// Closes the file; prints an error to standard error if that fails. Call `close` to detect it.
+  /// Closes the file; prints an error to standard error if that fails. `close` throws it instead.
   ~McapWriter();
   McapWriter(const McapWriter&) = delete;
   McapWriter& operator=(const McapWriter&) = delete;
@@ -54,8 +54,8 @@ class McapWriter {
  private:
   struct Chunk {
     Bytes records;
-    std::uint64_t first_ns = 0, start_ns = 0,
-                  end_ns = 0;  ///< log time of the first message, minimum, maximum
+    std::uint64_t first_ns = 0;              ///< log time of the first message
+    std::uint64_t start_ns = 0, end_ns = 0;  ///< smallest and largest log time
     std::map<std::uint16_t, MessageIndex> index;
   };
   void append(const Bytes& bytes);

@@ -15,9 +15,9 @@ std::size_t Recorder::add_topic(const std::string& topic, const MessageType& typ
     if (topics_[i].name == topic && topics_[i].type == key) return i;
   std::uint16_t schema = 0;
   if (!type.schema.empty()) {
-    const auto known = schemas_.find(key);
-    schema = known != schemas_.end() ? known->second
-                                     : file_.add_schema(type.name, "ros2msg", type.schema);
+    const auto existing = schemas_.find(key);
+    schema = existing != schemas_.end() ? existing->second
+                                        : file_.add_schema(type.name, "ros2msg", type.schema);
     schemas_[key] = schema;
   }
   if (!type.idl.empty() && idls_.insert(type.name).second)
@@ -28,38 +28,39 @@ std::size_t Recorder::add_topic(const std::string& topic, const MessageType& typ
 }
 
 Recorder::Writer& Recorder::writer_of(std::size_t topic, std::string_view name) {
-  Topic& of = topics_.at(topic);
-  if (const auto known = of.writers.find(name); known != of.writers.end()) return known->second;
+  Topic& entry = topics_.at(topic);
+  if (const auto existing = entry.writers.find(name); existing != entry.writers.end())
+    return existing->second;
   const std::string key(name);
-  const auto channel = file_.add_channel(of.name, "cdr", of.schema, {{"writer", key}});
+  const auto channel = file_.add_channel(entry.name, "cdr", entry.schema, {{"writer", key}});
   ++counts_[topic].writers;
-  return of.writers.emplace(key, Writer{channel, {}}).first->second;
+  return entry.writers.emplace(key, Writer{channel, {}}).first->second;
 }
 
 void Recorder::write(std::size_t topic, const Sample& sample) {
   Writer& writer = writer_of(topic, sample.writer);
   TopicCount& count = counts_[topic];
-  if (sample.sequence && writer.last) {
-    if (*sample.sequence <= *writer.last) ++count.restarts;
-    else count.missing += *sample.sequence - *writer.last - 1;
+  if (sample.sequence && writer.last_sequence) {
+    if (*sample.sequence <= *writer.last_sequence) ++count.restarts;
+    else count.missing += *sample.sequence - *writer.last_sequence - 1;
   }
-  writer.last = sample.sequence;
+  writer.last_sequence = sample.sequence;
   ++count.messages;
   file_.write(writer.channel, static_cast<std::uint32_t>(sample.sequence.value_or(0)),
               sample.log_time_ns, sample.publish_time_ns, sample.cdr);
-  waiting_ = true;
+  has_unflushed_data_ = true;
 }
 
 void Recorder::tick(std::int64_t monotonic_ns) {
-  if (!waiting_) return;
-  if (!waiting_since_ns_) waiting_since_ns_ = monotonic_ns;
-  if (monotonic_ns - *waiting_since_ns_ >= flush_period_ns) flush();
+  if (!has_unflushed_data_) return;
+  if (!unflushed_since_ns_) unflushed_since_ns_ = monotonic_ns;
+  if (monotonic_ns - *unflushed_since_ns_ >= flush_period_ns) flush();
 }
 
 void Recorder::flush() {
   file_.flush();
-  waiting_ = false;
-  waiting_since_ns_.reset();
+  has_unflushed_data_ = false;
+  unflushed_since_ns_.reset();
 }
 
 void Recorder::close() { file_.close(); }

@@ -20,7 +20,7 @@ struct MessageType {
 
 /// One serialized message from the bus.
 struct Sample {
-  std::string_view writer;                ///< its writer, unique during the recording
+  std::string_view writer;                ///< name of its writer, unique during the recording
   std::uint64_t log_time_ns = 0;          ///< time of recording
   std::uint64_t publish_time_ns = 0;      ///< stamp of the message
   std::optional<std::uint64_t> sequence;  ///< sequence number; gaps are counted
@@ -33,11 +33,11 @@ struct TopicCount {
   std::uint64_t messages = 0, missing = 0, restarts = 0, writers = 0;
 };
 
-/// The logger without the bus. Writes one MCAP channel per topic and writer, so that every gap in a
-/// writer's numbers is visible in the file. Reads no clock and starts no thread.
+/// The logger without the bus. Writes one MCAP channel per topic and writer: the file then shows
+/// every gap in the sequence numbers of a writer. Reads no clock and starts no thread.
 class Recorder {
  public:
-  /// Writes `attachments` to the disk before the first message. Like every method, throws
+  /// Writes `attachments` to the disk before the first message. This and every other method throw
   /// RecordingError when writing fails.
   Recorder(std::string path, const std::vector<Attachment>& attachments, McapOptions options = {});
 
@@ -45,8 +45,8 @@ class Recorder {
   std::size_t add_topic(const std::string& topic, const MessageType& type);
   void write(std::size_t topic, const Sample& sample);
 
-  /// Writes data older than `flush_period_ns` to the disk. Call it at least ten times per second with
-  /// a monotonic clock: a killed process then loses at most 0.6 s.
+  /// Writes all data to the disk if some of it is older than `flush_period_ns`. Call it at least
+  /// ten times per second with a monotonic clock: a killed process then loses at most 0.6 s.
   void tick(std::int64_t monotonic_ns);
   void flush();
   void close();
@@ -54,12 +54,13 @@ class Recorder {
   const std::vector<TopicCount>& counts() const { return counts_; }
   std::uint64_t missing() const;
 
-  static constexpr std::int64_t flush_period_ns = 500'000'000;  // chosen: half of the allowed loss
+  static constexpr std::int64_t flush_period_ns =
+      500'000'000;  // chosen: half of the allowed loss, 1 s
 
  private:
   struct Writer {
     std::uint16_t channel = 0;
-    std::optional<std::uint64_t> last;
+    std::optional<std::uint64_t> last_sequence;
   };
   struct Topic {
     std::string name, type;
@@ -73,8 +74,8 @@ class Recorder {
   std::vector<TopicCount> counts_;
   std::map<std::string, std::uint16_t> schemas_;  ///< by name and text
   std::set<std::string> idls_;
-  bool waiting_ = false;  ///< some data is not on the disk yet
-  std::optional<std::int64_t> waiting_since_ns_;
+  bool has_unflushed_data_ = false;  ///< some data is not on the disk yet
+  std::optional<std::int64_t> unflushed_since_ns_;
 };
 
 }  // namespace recording

@@ -15,7 +15,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-/// Removes and returns the text before `end` (or all of it); also removes `end`.
+/// Removes and returns the text before the first `end`, or all of it; also removes that `end`.
 std::string_view cut_front(std::string_view& text, char end) {
   const auto at = text.find(end);
   const std::string_view front = text.substr(0, at);
@@ -75,21 +75,21 @@ class Parser {
   }
 
   void open(const std::string& name) {
-    places_.try_emplace(name, type_.structures.size());
+    structure_index_.try_emplace(name, type_.structures.size());
     type_.structures.push_back({name, {}});
   }
 
   void take_line(std::string_view line) {
     const bool separator = line.size() >= 3 && line.find_first_not_of("=\r") == line.npos;
     if (separator) {
-      between_ = true;
+      expects_name_ = true;
       return;
     }
-    if (between_) {
+    if (expects_name_) {
       if (trimmed(line).empty()) return;
       if (!line.starts_with("MSG:")) fail(line_, "expected \"MSG: package/Type\" after ===");
       open(full_name(trimmed(line.substr(4))));
-      between_ = false;
+      expects_name_ = false;
       return;
     }
     std::string_view rest = line;
@@ -103,8 +103,8 @@ class Parser {
     const std::string_view type = code.substr(0, gap);
     rest = gap == code.npos ? std::string_view{} : trimmed(code.substr(gap));
     const std::string_view name = rest.substr(0, rest.find_first_of(" \t="));
-    const std::string_view after = trimmed(rest.substr(name.size()));
-    if (after.starts_with('=')) return;  // a constant
+    const std::string_view remainder = trimmed(rest.substr(name.size()));
+    if (remainder.starts_with('=')) return;  // a constant
     if (!is_word(name)) fail(line_, "\"" + std::string(code) + "\" is not \"type name\"");
     Field field;
     field.name = name;
@@ -123,10 +123,11 @@ class Parser {
       field.unit = unit.substr(1, unit.size() - 2);
     else if (!unit.empty()) return;  // an ordinary comment
     if (!has_name) return;
-    const std::string plain = ros_field_name(word);
-    const bool same = field.name.starts_with(plain) &&
-                      field.name.find_first_not_of("0123456789", plain.size()) == field.name.npos;
-    if (same) field.name = word;
+    const std::string ros_name = ros_field_name(word);
+    const bool is_original_name =
+        field.name.starts_with(ros_name) &&
+        field.name.find_first_not_of("0123456789", ros_name.size()) == field.name.npos;
+    if (is_original_name) field.name = word;
   }
 
   void take_type(std::string_view type, Field& field) {
@@ -170,18 +171,19 @@ class Parser {
       const std::string& owner = type_.structures[reference.structure].name;
       std::string name = reference.name;
       if (name.find('/') == name.npos) name = owner.substr(0, owner.rfind('/') + 1) + name;
-      const auto place = places_.find(full_name(name));
-      if (place == places_.end()) fail(reference.line, "unknown type \"" + reference.name + "\"");
-      type_.structures[reference.structure].fields[reference.field].structure = place->second;
+      const auto index = structure_index_.find(full_name(name));
+      if (index == structure_index_.end())
+        fail(reference.line, "unknown type \"" + reference.name + "\"");
+      type_.structures[reference.structure].fields[reference.field].structure = index->second;
     }
   }
 
   std::string schema_;
   TypeDescription type_;
-  std::map<std::string, std::size_t> places_;
+  std::map<std::string, std::size_t> structure_index_;
   std::vector<Reference> references_;
   int line_ = 0;
-  bool between_ = false;
+  bool expects_name_ = false;
 };
 
 }  // namespace

@@ -6,9 +6,10 @@
 
 namespace recording {
 
-/// Parses `ros2msg` schema text with its dependencies (`===`, `MSG: package/Type`). Ignores constants,
-/// default values and comments, except the comments of ros2msg_text with name and unit. `name` is the
-/// name of the schema, "package/msg/Type". Throws RecordingError with name, line, value, remedy.
+/// Parses `ros2msg` schema text with its dependencies (`===`, `MSG: package/Type`). Ignores
+/// constants, default values and comments, except the comments with name and unit that ros2msg_text
+/// writes. `name`: name of the schema, "package/msg/Type". Throws RecordingError with name, line,
+/// value, remedy.
 TypeDescription parse_ros2msg(std::string_view name, std::string_view text);
 
 }  // namespace recording

@@ -50,8 +50,8 @@ Table read_table(const std::string& path, const TableOptions& options) {
     return table_of(McapReader(path), options);
   if (path.ends_with(".mcap"))
     throw RecordingError(path + ": byte 0: this is not an MCAP file; is it the right one?");
-  constexpr char xml = '<';
-  if (!start.empty() && static_cast<char>(start[0]) == xml)
+  constexpr char xml_start = '<';
+  if (!start.empty() && static_cast<char>(start[0]) == xml_start)
     throw RecordingError(path + ": byte 0: this is XML, not a recording; give a .mcap or .csv");
   return parse_csv(path, text(file.read(0, file.size())));
 }

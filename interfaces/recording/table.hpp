@@ -7,7 +7,7 @@
 /// A recording as a table: one row per cycle, one column per signal.
 /// ```
 ///   time_s                    time since the first row
-///   sequence                  of the frame: the device's tick (on request)
+///   sequence                  sequence number of the frame: the device's tick (on request)
 ///   <a>.mode                  mode of the ECU (erp::Mode as a number; a name in CSV)
 ///   <a>.reference             V, m (change of line length since the start), A or N, by mode
 ///   <a>.voltage_V             commanded by the ECU
@@ -16,14 +16,16 @@
 ///   <a>.tension_N
 ///   <a>.line_m                change of line length since the start (on request)
 ///   <a>.target_mode, .target  desired by a planner in answer to this row's frame (on request)
-///   ecu<e>.<c>.sent_request, .sent, .followed_request, .followed   of a channel, in its counts: the
-///                             last set-point sent to it before this row, and the one that it
-///                             followed in this row (on request, from MCAP)
+///   ecu<e>.<c>.sent_request, .sent   last set-point sent to an ECU channel before this row, in its
+///                             counts (on request, from MCAP)
+///   ecu<e>.<c>.followed_request, .followed   set-point that the channel followed in this row, in its
+///                             counts (on request, from MCAP)
 ///   <j>.angle_rad             a revolute joint
 ///   <j>.qw … <j>.qz           a spherical joint
-///   <d>.control_V             of a drive: control signal from this row to the next
-///   <d>.position_m            of a drive's slide; <d>.position_rad of its shaft
-///   <d>.reference_m, .reference_rad, .pulse_V   of a drive; pulses are part of control_V
+///   <d>.control_V             control signal of a drive, from this row to the next
+///   <d>.position_m            position of a drive's slide; <d>.position_rad of its shaft
+///   <d>.reference_m, .reference_rad   reference position of a drive
+///   <d>.pulse_V               part of control_V: pulses of a drive
 /// ```
 namespace recording {
 
@@ -46,6 +48,7 @@ struct Table {
 const std::vector<std::string_view>& known_signals();
 /// "flexor.tension_N" → "tension_N"; the whole name when it has no dot.
 std::string_view signal_of(std::string_view column);
+/// Whether the values of the column are modes (erp::Mode).
 bool holds_mode(std::string_view column);
 /// Prefix of the columns of an ECU channel: "ecu0.1".
 std::string channel_name(int ecu, int channel);
@@ -66,8 +69,8 @@ Table read_table(const std::string& path, const TableOptions& options = {});
 
 class McapReader;
 /// One row per sensor_frame, in the order of stamps. A spherical joint that is not in sensor_frame
-/// comes from joint_state: its last sample stamped after the previous row and not after this row. An
-/// actuator_target is joined to the row whose sequence equals its `answers`.
+/// comes from joint_state: a row takes its last sample that is newer than the previous row and not
+/// newer than this row. An actuator_target belongs to the row with the sequence in its `answers`.
 Table table_of(const McapReader& recording, const TableOptions& options = {});
 
 }  // namespace recording

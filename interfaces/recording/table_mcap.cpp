@@ -14,7 +14,7 @@
 namespace recording {
 namespace {
 
-/// A signal, its field in a sample, and its valid bit.
+/// A signal of the table, its field in a sample, and its bit in `valid`.
 struct Source {
   const char* signal;
   const char* field;
@@ -42,11 +42,12 @@ struct Target {
   std::uint64_t answers, log_time_ns;
 };
 
-/// A set-point of one ECU channel, in its counts: sent by the plant, or reported as followed.
+/// A set-point of one ECU channel in its counts. The plant sent it, or the ECU reports that it
+/// followed it.
 struct SetPoint {
   std::string channel;
   double request, counts;
-  std::uint64_t sequence;  ///< of the frame that is answered, or that reports it
+  std::uint64_t sequence;  ///< sent: of the answered frame; followed: of the reporting frame
 };
 
 struct Pose {
@@ -114,9 +115,9 @@ class Builder {
     each_in(frame, "actuators", [&](const Members& sample) {
       const std::string name = text_in(sample, "name");
       const auto valid = flags_in(sample, "valid");
-      const bool driven = number_in(sample, "mode") != 0;
+      const bool is_driven = number_in(sample, "mode") != 0;
       for (const Source& source : actuator_sources)
-        set(actuators_, name, source, row, sample, source.valid ? valid & source.valid : driven);
+        set(actuators_, name, source, row, sample, source.valid ? valid & source.valid : is_driven);
       if (valid & potentiometer_source.valid)
         set(actuators_, name, potentiometer_source, row, sample, true);
       if (options_.lines)
@@ -141,12 +142,12 @@ class Builder {
     });
   }
 
-  static void take_set_points(const Members& message, const char* sequence,
+  static void take_set_points(const Members& message, const char* sequence_field,
                               std::vector<SetPoint>& all) {
     each_in(message, "channels", [&](const Members& sample) {
       all.push_back({channel_name(int(number_in(sample, "ecu")), int(number_in(sample, "channel"))),
                      number_in(sample, "request"), number_in(sample, "setpoint"),
-                     integer_in<std::uint64_t>(message, sequence)});
+                     integer_in<std::uint64_t>(message, sequence_field)});
     });
   }
 
@@ -164,8 +165,8 @@ class Builder {
     });
   }
 
-  /// Joins each target to the row that it answers. If a sequence occurs twice (the plant restarted),
-  /// joins it to the row nearest in log time.
+  /// Joins each target to the row that it answers. If a sequence occurs twice (the plant
+  /// restarted), joins it to the row nearest in log time.
   void join_targets() {
     std::multimap<std::uint64_t, std::size_t> by_sequence;
     for (std::size_t i = 0; i < rows_.size(); ++i) by_sequence.emplace(rows_[i].sequence, i);
@@ -179,7 +180,7 @@ class Builder {
       const auto row = std::min_element(first, last, [&](const auto& a, const auto& b) {
         return distance_ns(a.second) < distance_ns(b.second);
       });
-      if (row == last) continue;
+      if (row == last) continue;  // no row has this sequence
       actuators_.set(target.actuator, "target_mode", row->second,
                      target.mode ? target.mode : not_taken);
       actuators_.set(target.actuator, "target", row->second,
@@ -187,29 +188,29 @@ class Builder {
     }
   }
 
-  /// A set-point that answers a frame can be followed in the next frame at the earliest: it is written
-  /// to that row and the following rows until another one is sent. A followed set-point is written to
-  /// the row of the frame that reports it.
+  /// An ECU can follow a set-point at the earliest in the frame after the one that it answers. A
+  /// sent set-point is written to that row and to all rows until the next one is sent. A followed
+  /// set-point is written to the row of the frame that reports it.
   void join_set_points() {
     const auto order = row_order();
     std::map<std::uint64_t, std::size_t> row_of;
     for (const std::size_t row : order) row_of.emplace(rows_[row].sequence, row);
     for (const SetPoint& followed : followed_)
       if (const auto row = row_of.find(followed.sequence); row != row_of.end())
-        set_point(row->second, followed, "followed");
+        write_set_point(row->second, followed, "followed");
     std::ranges::stable_sort(sent_, {}, &SetPoint::sequence);
-    std::map<std::string, SetPoint> newest;
+    std::map<std::string, SetPoint> last_sent;
     auto next = sent_.begin();
     for (const std::size_t row : order) {
       for (; next != sent_.end() && next->sequence < rows_[row].sequence; ++next)
-        newest.insert_or_assign(next->channel, *next);
-      for (const auto& [channel, sent] : newest) set_point(row, sent, "sent");
+        last_sent.insert_or_assign(next->channel, *next);
+      for (const auto& [channel, sent] : last_sent) write_set_point(row, sent, "sent");
     }
   }
 
-  void set_point(std::size_t row, const SetPoint& value, const std::string& what) {
-    ecus_.set(value.channel, (what + "_request").c_str(), row, value.request);
-    ecus_.set(value.channel, what.c_str(), row, value.counts);
+  void write_set_point(std::size_t row, const SetPoint& value, const std::string& signal) {
+    ecus_.set(value.channel, (signal + "_request").c_str(), row, value.request);
+    ecus_.set(value.channel, signal.c_str(), row, value.counts);
   }
 
   std::string pose_source() const {
@@ -225,13 +226,15 @@ class Builder {
       if (joints_.has(joint)) continue;
       std::ranges::stable_sort(poses, {}, &Pose::stamp_ns);
       for (std::size_t i = 0; i < order.size(); ++i) {
-        const std::int64_t now = rows_[order[i]].stamp_ns;
-        const std::int64_t before = i ? rows_[order[i - 1]].stamp_ns : now - 1;
-        const auto after = std::ranges::upper_bound(poses, now, {}, &Pose::stamp_ns);
-        const bool taken = after != poses.begin() && std::prev(after)->stamp_ns > before;
+        const std::int64_t stamp_ns = rows_[order[i]].stamp_ns;
+        const std::int64_t previous_stamp_ns = i ? rows_[order[i - 1]].stamp_ns : stamp_ns - 1;
+        const auto next_pose = std::ranges::upper_bound(poses, stamp_ns, {}, &Pose::stamp_ns);
+        const bool taken =
+            next_pose != poses.begin() && std::prev(next_pose)->stamp_ns > previous_stamp_ns;
         constexpr const char* signals[] = {"qw", "qx", "qy", "qz"};
         for (std::size_t k = 0; k < 4; ++k)
-          balls_.set(joint, signals[k], order[i], taken ? std::prev(after)->q[k] : not_taken);
+          spherical_joints_.set(joint, signals[k], order[i],
+                                taken ? std::prev(next_pose)->q[k] : not_taken);
       }
     }
   }
@@ -248,7 +251,7 @@ class Builder {
     Table table{{{"time_s", {}}}};
     actuators_.move_into(table, rows_.size());
     joints_.move_into(table, rows_.size());
-    balls_.move_into(table, rows_.size());
+    spherical_joints_.move_into(table, rows_.size());
     ecus_.move_into(table, rows_.size());
     const std::vector<std::size_t> order = row_order();
     const std::int64_t start_ns = rows_[order.front()].stamp_ns;
@@ -272,7 +275,7 @@ class Builder {
   std::map<std::uint16_t, TypeDescription> types_;
   std::set<std::string> robots_;
   std::vector<Row> rows_;
-  ColumnGroup actuators_, joints_, balls_, ecus_;
+  ColumnGroup actuators_, joints_, spherical_joints_, ecus_;
   std::vector<Target> targets_;
   std::vector<SetPoint> sent_, followed_;
   std::map<std::string, std::map<std::string, std::vector<Pose>>> poses_;

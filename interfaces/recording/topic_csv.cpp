@@ -14,27 +14,29 @@
 namespace recording {
 namespace {
 
-using Use = std::function<void(const std::string& path, const Value& value)>;
+using LeafCallback = std::function<void(const std::string& path, const Value& value)>;
 
-void each_leaf(const std::string& path, const Value& value, const Use& use);
+/// Calls `callback` for each primitive value with its path, `actuators.flexor.tension_N`.
+void each_leaf(const std::string& path, const Value& value, const LeafCallback& callback);
 
-void each_leaf(const std::string& path, const Members& members, const Use& use, bool named) {
+void each_leaf(const std::string& path, const Members& members, const LeafCallback& callback,
+               bool skip_name) {
   for (std::size_t i = 0; i < members.fields.size(); ++i) {
     const std::string& field = members.type->fields[i].name;
-    if (named && field == "name") continue;
-    each_leaf(path.empty() ? field : path + "." + field, members.fields[i], use);
+    if (skip_name && field == "name") continue;
+    each_leaf(path.empty() ? field : path + "." + field, members.fields[i], callback);
   }
 }
 
-void each_leaf(const std::string& path, const Value& value, const Use& use) {
-  if (const Members* members = value.members()) return each_leaf(path, *members, use, false);
+void each_leaf(const std::string& path, const Value& value, const LeafCallback& callback) {
+  if (const Members* members = value.members()) return each_leaf(path, *members, callback, false);
   const Values* elements = value.elements();
-  if (!elements) return use(path, value);
+  if (!elements) return callback(path, value);
   for (std::size_t i = 0; i < elements->size(); ++i) {
     const Members* members = (*elements)[i].members();
     const Value* name = members ? members->find("name") : nullptr;
-    if (name && name->text()) each_leaf(path + "." + *name->text(), *members, use, true);
-    else each_leaf(path + "[" + std::to_string(i) + "]", (*elements)[i], use);
+    if (name && name->text()) each_leaf(path + "." + *name->text(), *members, callback, true);
+    else each_leaf(path + "[" + std::to_string(i) + "]", (*elements)[i], callback);
   }
 }
 
@@ -48,10 +50,10 @@ class TopicReader {
       if (channel.topic == topic) add_type(channel);
     }
     if (topics.contains(topic)) return;
-    std::string recorded;
-    for (const std::string& name : topics) recorded += (recorded.empty() ? "" : ", ") + name;
+    std::string list;
+    for (const std::string& name : topics) list += (list.empty() ? "" : ", ") + name;
     throw RecordingError(recording.path() + ": no topic \"" + topic +
-                         "\"; recorded topics: " + (recorded.empty() ? "none" : recorded));
+                         "\"; recorded topics: " + (list.empty() ? "none" : list));
   }
 
   template <class Each>
@@ -81,23 +83,23 @@ class TopicReader {
 
 void write_topic_csv(const McapReader& recording, const std::string& topic, std::ostream& out) {
   const TopicReader reader(recording, topic);
-  std::unordered_map<std::string, std::size_t> places;
+  std::unordered_map<std::string, std::size_t> column_of;
   std::string header = "log_time_ns";
   reader.for_each([&](const Message&, const Members& members) {
     each_leaf(
         "", members,
         [&](const std::string& path, const Value&) {
-          if (places.try_emplace(path, places.size()).second) header += "," + csv_cell(path);
+          if (column_of.try_emplace(path, column_of.size()).second) header += "," + csv_cell(path);
         },
         false);
   });
   out << header << '\n';
   reader.for_each([&](const Message& message, const Members& members) {
-    std::vector<std::string> cells(places.size());
+    std::vector<std::string> cells(column_of.size());
     each_leaf(
         "", members,
         [&](const std::string& path, const Value& value) {
-          cells[places.at(path)] = csv_cell(to_text(value));
+          cells[column_of.at(path)] = csv_cell(to_text(value));
         },
         false);
     out << message.log_time_ns;

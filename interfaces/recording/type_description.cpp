@@ -27,7 +27,7 @@ constexpr std::array<Primitive, 13> primitives{{{"bool", 1},
                                                 {"string", 0},
                                                 {"", 0}}};
 
-/// "erp/msg/SensorFrame" as fields and `MSG:` lines write it: "erp/SensorFrame".
+/// "erp/msg/SensorFrame" → "erp/SensorFrame", the form in fields and `MSG:` lines.
 std::string short_name(const std::string& name) {
   const auto middle = name.find("/msg/");
   return middle == std::string::npos ? name : name.substr(0, middle) + name.substr(middle + 4);
@@ -43,11 +43,11 @@ void put_type(std::string& out, const TypeDescription& type, const Field& field)
 }
 
 void put_structure(std::string& out, const TypeDescription& type, const Structure& structure) {
-  std::set<std::string> used;
+  std::set<std::string> used_names;
   for (const Field& field : structure.fields) {
-    const std::string plain = ros_field_name(field.name);
-    std::string name = plain;
-    for (int n = 2; !used.insert(name).second; ++n) name = plain + std::to_string(n);
+    const std::string base_name = ros_field_name(field.name);
+    std::string name = base_name;
+    for (int n = 2; !used_names.insert(name).second; ++n) name = base_name + std::to_string(n);
     put_type(out, type, field);
     out += " " + name;
     if (name != field.name || !field.unit.empty()) out += "  #";
@@ -57,7 +57,8 @@ void put_structure(std::string& out, const TypeDescription& type, const Structur
   }
 }
 
-constexpr std::size_t max_nesting = 32;  // as Cyclone's own limit
+constexpr std::size_t max_nesting = 32;                              // limit of Cyclone DDS
+constexpr std::uint64_t max_message_bytes = std::uint64_t{1} << 31;  // prevents an overflow
 
 void check_field(const TypeDescription& type, const Structure& structure, const Field& field) {
   const std::string place = structure.name + "." + field.name;
@@ -69,27 +70,29 @@ void check_field(const TypeDescription& type, const Structure& structure, const 
     throw std::invalid_argument(place + " has an unknown type");
 }
 
-/// Sets least_bytes of structure `i` and of all that it contains; `above` are those that contain it.
-void measure(TypeDescription& type, std::size_t i, std::vector<std::size_t>& above) {
+/// Sets `least_bytes` of structure `i` and of all structures in it. `ancestors`: the structures
+/// that contain it.
+void set_least_bytes(TypeDescription& type, std::size_t i, std::vector<std::size_t>& ancestors) {
   Structure& structure = type.structures[i];
-  if (std::ranges::find(above, i) != above.end())
+  if (std::ranges::find(ancestors, i) != ancestors.end())
     throw std::invalid_argument(structure.name + " contains itself");
   if (structure.least_bytes) return;
   if (structure.fields.empty()) throw std::invalid_argument(structure.name + " has no fields");
-  if (above.size() == max_nesting)
+  if (ancestors.size() == max_nesting)
     throw std::invalid_argument(structure.name + " is nested too deeply");
-  above.push_back(i);
-  std::uint64_t sum = 0;
+  ancestors.push_back(i);
+  std::uint64_t total_bytes = 0;
   for (const Field& field : structure.fields) {
     check_field(type, structure, field);
-    if (field.kind == Kind::structure) measure(type, field.structure, above);
-    const std::uint64_t one = least_bytes(type, field);
-    sum +=
-        field.count == Count::sequence ? 4 : one * (field.count == Count::array ? field.size : 1);
-    sum = std::min(sum, std::uint64_t{1} << 31);  // no message is larger
+    if (field.kind == Kind::structure) set_least_bytes(type, field.structure, ancestors);
+    const std::uint64_t element_bytes = least_bytes(type, field);
+    total_bytes += field.count == Count::sequence
+                       ? 4
+                       : element_bytes * (field.count == Count::array ? field.size : 1);
+    total_bytes = std::min(total_bytes, max_message_bytes);
   }
-  above.pop_back();
-  structure.least_bytes = static_cast<std::size_t>(sum);
+  ancestors.pop_back();
+  structure.least_bytes = static_cast<std::size_t>(total_bytes);
 }
 
 }  // namespace
@@ -146,8 +149,8 @@ std::string ros2msg_text(const TypeDescription& type) {
 void check(TypeDescription& type) {
   if (type.structures.empty()) throw std::invalid_argument("a type without structure");
   for (Structure& structure : type.structures) structure.least_bytes = 0;
-  std::vector<std::size_t> above;
-  measure(type, 0, above);
+  std::vector<std::size_t> ancestors;
+  set_least_bytes(type, 0, ancestors);
 }
 
 std::size_t least_bytes(const TypeDescription& type, const Field& field) {

@@ -53,17 +53,17 @@ struct TypeDescription {
 std::string_view name_of(Kind kind);  ///< "float64"
 std::size_t size_of(Kind kind);       ///< bytes of a primitive; 0 for string and structure
 
-/// "erp::SensorFrame" or "sensor_msgs::msg::dds_::JointState_" as "erp/msg/SensorFrame": the first
-/// modules are the package.
+/// "erp::SensorFrame" → "erp/msg/SensorFrame"; "sensor_msgs::msg::dds_::JointState_" →
+/// "sensor_msgs/msg/JointState". The modules before the type are the package.
 std::string ros_name(std::string_view idl_name);
 
-/// A valid ROS 2 field name: lower case, single underscores inside only. "tension_N" → "tension_n";
-/// Foxglove refuses a schema with other names.
+/// A valid ROS 2 field name: lower case, no underscore at the start or end, no double underscore.
+/// "tension_N" → "tension_n". Foxglove rejects a schema with other names.
 std::string ros_field_name(std::string_view name);
 
 /// The type as `ros2msg` text: its fields, then `===` and `MSG: package/Type` for every structure that
-/// it uses. A comment contains the original name if it was changed, and the unit if known;
-/// parse_ros2msg reads both: `float64 tension_n  # tension_N [N]`.
+/// it uses. A comment contains the original name if it was changed, and the unit if known:
+/// `float64 tension_n  # tension_N [N]`. parse_ros2msg reads both.
 std::string ros2msg_text(const TypeDescription& type);
 
 /// Checks that every structure has fields with unique names and does not contain itself; sets

@@ -15,7 +15,7 @@ namespace erp {
 
 struct MotorType {
   static constexpr auto element = "motor_type";
-  static constexpr auto meaning =
+  static constexpr auto description =
       "DC motor with gearbox, eq. 3. Several actuators may use one type.";
   xml::Place place;
   std::string name;
@@ -80,13 +80,13 @@ struct MotorType {
       {xml::at_least_zero,
        "Limit of ∫ (i² − continuous_current_A²) dt, which never falls below 0; above it the ECU "
        "switches the channel off. 0: no limit."});
-    v("source", source, source_meaning);
+    v("source", source, source_description);
   }
 };
 
 struct Actuator {
   static constexpr auto element = "actuator";
-  static constexpr auto meaning =
+  static constexpr auto description =
       "Artificial muscle: motor, gearbox, spindle and tendon on one channel of an ECU. The line is "
       "wound up at positive voltage.";
   xml::Place place;
@@ -133,7 +133,7 @@ struct Actuator {
       "Name of a group of actuators. When an ECU of the group is silent, all of them take their "
       "safe action, so that none pulls without its antagonist. All actuators without a limb form "
       "one group.");
-    v("source", source, source_meaning);
+    v("source", source, source_description);
     v.child(spindle);
     v.child(tendon);
     v.optional_child(rope);

@@ -20,8 +20,8 @@ template <class Type>
 void append_new(std::vector<Type>& to, const std::vector<Type>& from) {
   for (const Type& type : from) {
     const std::string text = xml::write(type);
-    const auto same = [&](const Type& other) { return xml::write(other) == text; };
-    if (std::none_of(to.begin(), to.end(), same)) to.push_back(type);
+    const auto is_equal = [&](const Type& other) { return xml::write(other) == text; };
+    if (std::none_of(to.begin(), to.end(), is_equal)) to.push_back(type);
   }
 }
 
@@ -55,34 +55,37 @@ std::vector<std::string> names_in(const Robot& part) {
   return names;
 }
 
-/// Reads files depth first. `open_` is the chain of files being read; it must not contain a file
-/// twice.
+/// Reads files depth first. `open_files_`: the files from the root to the one being read. A file
+/// that occurs there twice includes itself.
 class Assembler {
  public:
   Robot read(const std::string& file) {
-    Robot robot = merged(file);
-    for (const Pretension& given : std::exchange(robot.pretensions, {})) pretension(robot, given);
+    Robot robot = read_with_parts(file);
+    for (const Pretension& pretension : std::exchange(robot.pretensions, {}))
+      apply_pretension(robot, pretension);
     xml::throw_if_any(std::move(errors_));
     return robot;
   }
 
  private:
-  Robot merged(const std::string& file) {
-    open_.push_back(std::filesystem::weakly_canonical(file).string());
+  /// The robot of a file together with its included and mirrored parts.
+  Robot read_with_parts(const std::string& file) {
+    open_files_.push_back(std::filesystem::weakly_canonical(file).string());
     Robot robot;
     const xml::Element root = xml::read_document(file);
     xml::throw_if_any(xml::wrong_root(root, Robot::element));
     xml::Reader::fill(robot, root, errors_);
-    const auto own = std::exchange(robot.pretensions, {});
+    const auto own_pretensions = std::exchange(robot.pretensions, {});
     for (const Include& include : std::exchange(robot.includes, {})) add(robot, include, file);
     for (const Mirror& mirror : std::exchange(robot.mirrors, {})) add(robot, mirror, file);
-    append(robot.pretensions, own);  // after those of the parts, so that they replace them
-    open_.pop_back();
+    append(robot.pretensions,
+           own_pretensions);  // last, because a later pretension replaces an earlier one
+    open_files_.pop_back();
     return robot;
   }
 
   void add(Robot& robot, const Include& include, const std::string& from_file) {
-    Robot part = part_of(include, from_file);
+    Robot part = read_part(include, from_file);
     shift_ecus(part, include.ecu_offset);
     append_part(robot, part);
     append_new(robot.motor_types, part.motor_types);
@@ -90,10 +93,10 @@ class Assembler {
   }
 
   void add(Robot& robot, const Mirror& mirror, const std::string& from_file) {
-    Robot part = part_of(mirror, from_file);
+    Robot part = read_part(mirror, from_file);
     const auto names = names_in(part);
-    const auto renamed = [&](const std::string& name) { return name.starts_with(mirror.from); };
-    if (!names.empty() && std::none_of(names.begin(), names.end(), renamed))
+    const auto has_prefix = [&](const std::string& name) { return name.starts_with(mirror.from); };
+    if (!names.empty() && std::none_of(names.begin(), names.end(), has_prefix))
       errors_.push_back(
           error_in(Mirror::element, mirror.place,
                    "no name in " + mirror.file + " begins with from=\"" + mirror.from + "\"",
@@ -105,47 +108,48 @@ class Assembler {
     append_new(robot.sensor_types, part.sensor_types);
   }
 
-  void pretension(Robot& robot, const Pretension& given) {
+  void apply_pretension(Robot& robot, const Pretension& pretension) {
     std::vector<std::string> names;
     for (Actuator& actuator : robot.actuators) {
-      if (actuator.name == given.actuator) {
-        actuator.tendon.pretension_N = given.tension_N;
+      if (actuator.name == pretension.actuator) {
+        actuator.tendon.pretension_N = pretension.tension_N;
         return;
       }
       names.push_back(actuator.name);
     }
-    errors_.push_back(error_in(Pretension::element, given.place,
-                               "actuator=\"" + given.actuator + "\" refers to an unknown actuator",
-                               xml::did_you_mean(given.actuator, names)));
+    errors_.push_back(
+        error_in(Pretension::element, pretension.place,
+                 "actuator=\"" + pretension.actuator + "\" refers to an unknown actuator",
+                 xml::did_you_mean(pretension.actuator, names)));
   }
 
-  /// The part, or an empty one when it cannot be read; the reason is then in errors_.
+  /// Reads the part. If that fails, adds an error and returns an empty robot.
   template <class Reference>
-  Robot part_of(const Reference& reference, const std::string& from_file) {
+  Robot read_part(const Reference& reference, const std::string& from_file) {
     const std::string file = xml::resolved(reference.file, from_file);
     if (reference.file.empty()) return {};  // already reported as missing
-    const auto refuse = [&](const std::string& what, const std::string& remedy) {
+    const auto add_error = [&](const std::string& what, const std::string& remedy) {
       errors_.push_back(error_in(Reference::element, reference.place,
                                  "file=\"" + reference.file + "\" " + what, remedy));
     };
     const auto canonical = std::filesystem::weakly_canonical(file).string();
-    if (std::find(open_.begin(), open_.end(), canonical) != open_.end()) {
-      refuse("includes itself: " + xml::joined(open_, " > ") + " > " + canonical,
-             "remove one of these includes");
+    if (std::find(open_files_.begin(), open_files_.end(), canonical) != open_files_.end()) {
+      add_error("includes itself: " + xml::joined(open_files_, " > ") + " > " + canonical,
+                "remove one of these includes");
       return {};
     }
-    const auto depth = open_.size();
+    const auto depth = open_files_.size();
     try {
-      return merged(file);
+      return read_with_parts(file);
     } catch (const xml::Errors& errors) {
-      open_.resize(depth);
+      open_files_.resize(depth);
       for (const xml::Error& error : errors.all())
-        error.place.line == 0 ? refuse(error.what, error.remedy) : errors_.push_back(error);
+        error.place.line == 0 ? add_error(error.what, error.remedy) : errors_.push_back(error);
       return {};
     }
   }
 
-  std::vector<std::string> open_;
+  std::vector<std::string> open_files_;
   std::vector<xml::Error> errors_;
 };
 

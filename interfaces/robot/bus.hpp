@@ -11,7 +11,7 @@ namespace erp {
 
 struct BusPlan {
   static constexpr auto element = "can_bus";
-  static constexpr auto meaning =
+  static constexpr auto description =
       "CAN bus and its ECUs. Their order is that of the interfaces in a graph. A robot without "
       "<can_bus> has one bus, at 1 Mbit/s, with all its ECUs.";
   xml::Place place;
@@ -36,7 +36,7 @@ struct BusPlan {
       {xml::Range{10e3, 8e6},
        "Bit rate of the data phase of CAN FD frames; at least bitrate_per_s. Default: classic CAN "
        "frames."});
-    v("source", source, source_meaning);
+    v("source", source, source_description);
   }
 };
 

@@ -8,9 +8,9 @@
 
 namespace erp {
 
-/// Checks that an XSD cannot express: references, the joint tree, the ECUs, the tendons. Returns all
-/// errors; empty if the robot is valid. `read_robot` throws them. Call this for robots that do not
-/// come from a file (imported, fitted).
+/// Checks that an XSD cannot express: references, the joint tree, the ECUs, the tendons. Returns
+/// all errors. `read_robot` throws them. Call this for robots that do not come from a file
+/// (imported, fitted).
 std::vector<xml::Error> check_robot(const Robot& robot);
 
 namespace robot_check {
@@ -38,7 +38,7 @@ std::vector<std::string> names_of(const Items& items) {
   return names;
 }
 
-inline std::string place_words(const xml::Place& place) {
+inline std::string place_text(const xml::Place& place) {
   return place.file + ":" + std::to_string(place.line);
 }
 

@@ -7,9 +7,11 @@
 namespace erp::robot_check {
 namespace {
 
-bool plain(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-'; }
+bool is_name_character(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-';
+}
 
-/// Names become topic keys of bounded length and columns of CSV files.
+/// Names are keys of bounded length on the bus, and parts of column names in CSV files.
 template <class Item>
 void check_name(const Item& item, Findings& findings) {
   const std::string& name = item.name;
@@ -17,46 +19,47 @@ void check_name(const Item& item, Findings& findings) {
     findings.add(item,
                  "name=" + xml::quote(name) + " has " + std::to_string(name.size()) + " characters",
                  "the bus allows at most " + std::to_string(max_name_length));
-  if (!std::all_of(name.begin(), name.end(), plain))
+  if (!std::all_of(name.begin(), name.end(), is_name_character))
     findings.add(item, "name=" + xml::quote(name) + " is not a plain name",
                  "use letters, digits, _ and -");
 }
 
 template <class Items>
 void check_unique(const Items& items, Findings& findings) {
-  std::map<std::string, xml::Place> seen;
+  std::map<std::string, xml::Place> place_of_name;
   for (const auto& item : items) {
     check_name(item, findings);
-    const auto [first, is_new] = seen.emplace(item.name, item.place);
+    const auto [first, is_new] = place_of_name.emplace(item.name, item.place);
     if (!is_new)
       findings.add(item, "duplicate name " + xml::quote(item.name),
-                   "rename it; the first is at " + place_words(first->second));
+                   "rename it; the first is at " + place_text(first->second));
   }
 }
 
 template <class Items>
-void check_count(const Robot& robot, const Items& items, std::size_t most, const char* what,
+void check_count(const Robot& robot, const Items& items, std::size_t limit, const char* what,
                  Findings& findings) {
-  if (items.size() > most)
+  if (items.size() > limit)
     findings.add(robot, std::to_string(items.size()) + " " + what,
-                 "the bus allows at most " + std::to_string(most));
+                 "the bus allows at most " + std::to_string(limit));
 }
 
 template <class Item>
 void check_reference(const Item& item, const char* attribute, const std::string& name,
-                     const std::vector<std::string>& known, const char* kind, Findings& findings) {
-  if (std::find(known.begin(), known.end(), name) != known.end()) return;
+                     const std::vector<std::string>& valid_names, const char* kind,
+                     Findings& findings) {
+  if (std::find(valid_names.begin(), valid_names.end(), name) != valid_names.end()) return;
   findings.add(item,
                std::string(attribute) + "=" + xml::quote(name) + " refers to an unknown " + kind,
-               known.empty() ? std::string("the robot has none: add a ") + kind
-                             : xml::did_you_mean(name, known));
+               valid_names.empty() ? std::string("the robot has none: add a ") + kind
+                                   : xml::did_you_mean(name, valid_names));
 }
 
-void check_tolerances(const Robot& robot, const std::vector<std::string>& places,
+void check_tolerances(const Robot& robot, const std::vector<std::string>& targets,
                       Findings& findings) {
   for (const Tolerance& tolerance : robot.tolerances) {
     if (!tolerance.on.empty())
-      check_reference(tolerance, "on", tolerance.on, places, "actuator, drive, joint or body",
+      check_reference(tolerance, "on", tolerance.on, targets, "actuator, drive, joint or body",
                       findings);
     if (tolerance.relative.has_value() == tolerance.absolute.has_value())
       findings.add(tolerance,
@@ -112,17 +115,17 @@ void check_references(const Robot& robot, Findings& findings) {
     check_reference(sensor, "actuator", sensor.actuator, actuators, "actuator", findings);
   for (const Imu& imu : robot.imus)
     check_reference(imu, "body", imu.body, bodies, "body", findings);
-  auto places = joints;
+  auto targets = joints;
   const auto drives = names_of(robot.drives);
-  for (const auto* more : {&bodies, &actuators, &drives})
-    places.insert(places.end(), more->begin(), more->end());
+  for (const auto* names : {&bodies, &actuators, &drives})
+    targets.insert(targets.end(), names->begin(), names->end());
   for (const Drive& drive : robot.drives)
-    if (has_load_sensor(drive)) places.push_back(drive.name + ".load");
-  places.push_back(robot.name);
+    if (has_load_sensor(drive)) targets.push_back(drive.name + ".load");
+  targets.push_back(robot.name);
   for (const Effect& effect : robot.effects)
-    check_reference(effect, "on", effect.on, places, "actuator, drive, joint, body or robot",
+    check_reference(effect, "on", effect.on, targets, "actuator, drive, joint, body or robot",
                     findings);
-  check_tolerances(robot, places, findings);
+  check_tolerances(robot, targets, findings);
 }
 
 }  // namespace erp::robot_check

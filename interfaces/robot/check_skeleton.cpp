@@ -11,7 +11,8 @@ namespace {
 using xml::quote;
 using xml::write_number;
 
-/// The joint that moves each body; the first one if there are several.
+/// The joint that moves each body, by the name of the body; the first one if several joints move
+/// it.
 using MovedBy = std::map<std::string, const Joint*>;
 
 MovedBy check_one_joint_per_body(const std::vector<Joint>& joints, Findings& findings) {
@@ -27,7 +28,7 @@ MovedBy check_one_joint_per_body(const std::vector<Joint>& joints, Findings& fin
   return moved_by;
 }
 
-/// The joints from `joint` up to the root, or, when they form a loop, once around.
+/// The joints from `joint` up to the root. In a loop: each of its joints once.
 std::vector<const Joint*> towards_root(const Joint& joint, const MovedBy& moved_by) {
   std::vector<const Joint*> chain{&joint};
   for (auto next = moved_by.find(joint.parent); next != moved_by.end();
@@ -42,8 +43,8 @@ void check_loops(const std::vector<Joint>& joints, const MovedBy& moved_by, Find
   std::vector<const Joint*> reported;
   for (const Joint& joint : joints) {
     const auto chain = towards_root(joint, moved_by);
-    const bool closed = chain.back()->parent == joint.child;
-    if (!closed || std::find(reported.begin(), reported.end(), &joint) != reported.end()) continue;
+    const bool is_loop = chain.back()->parent == joint.child;
+    if (!is_loop || std::find(reported.begin(), reported.end(), &joint) != reported.end()) continue;
     reported.insert(reported.end(), chain.begin(), chain.end());
     std::string loop = joint.child;
     for (const Joint* j : chain) loop += " < " + j->parent;
@@ -54,9 +55,10 @@ void check_loops(const std::vector<Joint>& joints, const MovedBy& moved_by, Find
 
 void check_free(const Joint& joint, const MovedBy& moved_by, Findings& findings) {
   if (joint.type != JointType::free) return;
-  if (const auto above = moved_by.find(joint.parent); above != moved_by.end())
+  if (const auto joint_above = moved_by.find(joint.parent); joint_above != moved_by.end())
     findings.add(
-        joint, "parent=" + quote(joint.parent) + " is moved by joint " + quote(above->second->name),
+        joint,
+        "parent=" + quote(joint.parent) + " is moved by joint " + quote(joint_above->second->name),
         "a free body floats relative to a root body: give one");
   if (joint.viscous_Nm_s_per_rad > 0 || joint.coulomb_Nm > 0)
     findings.add(joint, "a free joint has no friction",
@@ -78,10 +80,11 @@ void check_joint(const Joint& joint, Findings& findings) {
         "give a number from " + write_number(joint.min_rad) + " to " + write_number(joint.max_rad));
 }
 
-/// I₁ ≤ I₂ + I₃ for each of the three: every mass distribution satisfies this.
-bool possible(const Vec3& inertia) {
+/// Every mass distribution satisfies I₁ ≤ I₂ + I₃, for each of the three as I₁.
+bool is_possible(const Vec3& inertia) {
+  constexpr double rounding = 1e-9;  // relative, for numbers written in decimal
   const double sum = inertia[0] + inertia[1] + inertia[2];
-  return *std::max_element(inertia.begin(), inertia.end()) <= sum / 2 * (1 + 1e-9);
+  return *std::max_element(inertia.begin(), inertia.end()) <= sum / 2 * (1 + rounding);
 }
 
 void check_body(const Body& body, const MovedBy& moved_by, Findings& findings) {
@@ -96,7 +99,7 @@ void check_body(const Body& body, const MovedBy& moved_by, Findings& findings) {
                  "mass_kg=" + quote(write_number(body.mass_kg)) +
                      " is given in addition to a density or a weight, which determine the mass",
                  "remove one of them");
-  if (!possible(body.inertia_kg_m2))
+  if (!is_possible(body.inertia_kg_m2))
     findings.add(body,
                  "inertia_kg_m2=\"" + xml::Codec<Vec3>::write(body.inertia_kg_m2) +
                      "\" is not a possible inertia",
@@ -126,7 +129,7 @@ void check_gravity(const Robot& robot, Findings& findings) {
     if (!part.gravity_m_per_s2) continue;
     if (first)
       findings.add(part, "gravity_m_per_s2 is given twice",
-                   "keep one; the first is at " + place_words(first->place));
+                   "keep one; the first is at " + place_text(first->place));
     else first = &part;
   }
 }

@@ -10,17 +10,18 @@ namespace {
 using xml::quote;
 using xml::write_number;
 
-/// Distance from the sphere's centre or the cylinder's axis.
-double distance_m(const Vec3& point, const Pulley& pulley) {
-  Vec3 from{};
-  for (std::size_t i = 0; i < 3; ++i) from[i] = point[i] - pulley.center_m[i];
+/// Distance of a point from the centre of a sphere or from the axis of a cylinder.
+double distance_from_pulley_m(const Vec3& point, const Pulley& pulley) {
+  Vec3 offset_m{};
+  for (std::size_t i = 0; i < 3; ++i) offset_m[i] = point[i] - pulley.center_m[i];
   if (pulley.shape == PulleyShape::cylinder && pulley.axis) {
     const Vec3& a = *pulley.axis;
-    const double size2 = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
-    const double along = (from[0] * a[0] + from[1] * a[1] + from[2] * a[2]) / size2;
-    for (std::size_t i = 0; i < 3 && size2 > 0; ++i) from[i] -= along * a[i];
+    const double axis_norm2 = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
+    const double axial_part =
+        (offset_m[0] * a[0] + offset_m[1] * a[1] + offset_m[2] * a[2]) / axis_norm2;
+    for (std::size_t i = 0; i < 3 && axis_norm2 > 0; ++i) offset_m[i] -= axial_part * a[i];
   }
-  return std::hypot(from[0], from[1], from[2]);
+  return std::hypot(offset_m[0], offset_m[1], offset_m[2]);
 }
 
 bool is_attach(const std::variant<Attach, Pulley>& point) {
@@ -40,14 +41,14 @@ void check_ends(const Actuator& actuator, Findings& findings) {
                  "begin and end it with an <attach>");
 }
 
-/// There is no tangent from a point inside a sphere to the sphere. Checks points and pulleys on the
-/// same body only; the simulator reports a point that enters a pulley of another body.
+/// A point inside a pulley has no tangent to it. Checks only points and pulleys on the same body;
+/// the simulator reports a point that enters a pulley on another body.
 void check_inside(const Attach& point, const Pulley& pulley, Findings& findings) {
-  const double apart_m = distance_m(point.at_m, pulley);
-  if (point.body != pulley.body || apart_m >= pulley.radius_m) return;
+  const double distance_m = distance_from_pulley_m(point.at_m, pulley);
+  if (point.body != pulley.body || distance_m >= pulley.radius_m) return;
   findings.add(point,
                "at_m=" + quote(xml::Codec<Vec3>::write(point.at_m)) + " lies " +
-                   write_number(apart_m) +
+                   write_number(distance_m) +
                    " m from the centre of the neighbouring pulley, "
                    "inside its radius_m=" +
                    quote(write_number(pulley.radius_m)),
@@ -57,10 +58,10 @@ void check_inside(const Attach& point, const Pulley& pulley, Findings& findings)
 void check_neighbours(const Actuator& actuator, Findings& findings) {
   const auto& path = actuator.tendon.path;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-    const auto *here = &path[i], *next = &path[i + 1];
-    if (is_attach(*next)) std::swap(here, next);
-    if (is_attach(*here) && !is_attach(*next))
-      check_inside(std::get<Attach>(*here), std::get<Pulley>(*next), findings);
+    const auto *point = &path[i], *neighbour = &path[i + 1];
+    if (is_attach(*neighbour)) std::swap(point, neighbour);
+    if (is_attach(*point) && !is_attach(*neighbour))
+      check_inside(std::get<Attach>(*point), std::get<Pulley>(*neighbour), findings);
   }
 }
 
@@ -69,8 +70,8 @@ void check_pulleys(const Actuator& actuator, Findings& findings) {
   for (const auto& point : actuator.tendon.path) {
     const auto* pulley = std::get_if<Pulley>(&point);
     if (!pulley) continue;
-    const bool zero = pulley->axis && *pulley->axis == Vec3{0, 0, 0};
-    if (zero) findings.add(*pulley, "axis=\"0 0 0\" has no direction", "give a direction");
+    const bool has_zero_axis = pulley->axis && *pulley->axis == Vec3{0, 0, 0};
+    if (has_zero_axis) findings.add(*pulley, "axis=\"0 0 0\" has no direction", "give a direction");
     if (!pulley->axis && pulley->shape == PulleyShape::cylinder)
       findings.add(*pulley, "a cylinder without an axis",
                    "add axis=\"…\": the tendon runs around it right-handed");
@@ -81,7 +82,8 @@ void check_pulleys(const Actuator& actuator, Findings& findings) {
   }
 }
 
-/// A rope takes its path over the solids by collision: it has no via points and no counted turns.
+/// Collisions with the solids determine the path of a rope: it has no points between its ends and
+/// no counted turns.
 void check_rope(const Actuator& actuator, Findings& findings) {
   if (!actuator.rope) return;
   const auto& path = actuator.tendon.path;

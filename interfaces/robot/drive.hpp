@@ -14,7 +14,8 @@ namespace erp {
 
 struct Slide {
   static constexpr auto element = "slide";
-  static constexpr auto meaning = "Carriage that the gearbox output moves, by a screw or a rack.";
+  static constexpr auto description =
+      "Carriage that the gearbox output moves, by a screw or a rack.";
   xml::Place place;
   double mass_kg = 0;
   double m_per_rad = 0;
@@ -32,7 +33,7 @@ struct Slide {
 
 struct Shaft {
   static constexpr auto element = "shaft";
-  static constexpr auto meaning = "Load that rotates with the gearbox output.";
+  static constexpr auto description = "Load that rotates with the gearbox output.";
   xml::Place place;
   double inertia_kg_m2 = 0;
   double step_rad = 0;  ///< 0: unknown
@@ -50,7 +51,7 @@ struct Shaft {
 
 struct LoadEncoder {
   static constexpr auto element = "load_encoder";
-  static constexpr auto meaning =
+  static constexpr auto description =
       "Sensor of the position of the load, behind the transmission. Requires stiffness_Nm_per_rad.";
   xml::Place place;
   void visit(auto&) {}
@@ -58,7 +59,7 @@ struct LoadEncoder {
 
 struct TorqueSensor {
   static constexpr auto element = "torque_sensor";
-  static constexpr auto meaning =
+  static constexpr auto description =
       "Sensor of the torque or force that the transmission applies to the load.";
   xml::Place place;
   double noise_Nm = 0;  ///< 0: unknown
@@ -74,7 +75,7 @@ enum class DriveControl { voltage, current, force };
 
 struct Drive {
   static constexpr auto element = "drive";
-  static constexpr auto meaning =
+  static constexpr auto description =
       "Motor that moves a slide or a shaft without a tendon. Only the diagnosis of recordings uses "
       "drives; they are not on the bus and not simulated. Contains exactly one <slide> or <shaft>, "
       "and at most one sensor of each kind.";
@@ -100,7 +101,7 @@ struct Drive {
                 "the control signal, in V, A, N or Nm."});
     v("motor", motor,
       "Name of its motor_type; required unless control is force, and excluded then.");
-    v("source", source, source_meaning);
+    v("source", source, source_description);
     v("stiffness_Nm_per_rad", stiffness_Nm_per_rad,
       {xml::positive,
        "Stiffness of the transmission between gearbox and load, referred to the gearbox output. "
@@ -111,15 +112,16 @@ struct Drive {
     v.list(load);
     v.list(sensors);
   }
+  /// The sensor of this type; null if the drive has none.
   template <class Sensor>
   const Sensor* find() const {
     for (const auto& sensor : sensors)
-      if (const auto* found = std::get_if<Sensor>(&sensor)) return found;
+      if (const auto* typed = std::get_if<Sensor>(&sensor)) return typed;
     return nullptr;
   }
 };
 
-/// Whether the load has its own sensor, so that motor and load are separate stages and not one mass.
+/// Whether the load has its own sensor. Motor and load are then separate stages, not one mass.
 inline bool has_load_sensor(const Drive& drive) { return !drive.sensors.empty(); }
 
 }  // namespace erp

@@ -6,11 +6,11 @@
 
 namespace erp {
 
-/// `<effect type="gearbox_backlash" on="flexor" width_rad="0.01"/>`. sim/model/effects defines and checks
-/// types, targets and parameters.
+/// `<effect type="gearbox_backlash" on="flexor" width_rad="0.01"/>`. sim/model/effects defines the
+/// types and checks targets and parameters.
 struct Effect {
   static constexpr auto element = "effect";
-  static constexpr auto meaning =
+  static constexpr auto description =
       "Deviation from the nominal robot that the simulator and the diagnosis add; controllers and "
       "plant ignore it. Further attributes are the parameters of its type.";
   xml::Place place;

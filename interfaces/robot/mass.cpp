@@ -11,27 +11,28 @@ using std::numbers::pi;
 
 double square(double x) { return x * x; }
 
-Mass of_part(const Sphere& s, double density) {
+Mass mass_of_part(const Sphere& s, double density) {
   const double m = density * 4 / 3 * pi * s.radius_m * square(s.radius_m);
   const double i = 0.4 * m * square(s.radius_m);
   return {m, s.at_m, {i, i, i, 0, 0, 0}};
 }
 
-Mass of_part(const Box& b, double density) {
+Mass mass_of_part(const Box& b, double density) {
   const double m = density * b.size_m[0] * b.size_m[1] * b.size_m[2];
   const double x = square(b.size_m[0]), y = square(b.size_m[1]), z = square(b.size_m[2]);
   return {m, b.at_m, {m / 12 * (y + z), m / 12 * (x + z), m / 12 * (x + y), 0, 0, 0}};
 }
 
-/// A cylinder of length l and two half spheres, their centres of mass 3/8 r beyond its ends:
-///   along the axis  m_c r²/2 + m_s 2r²/5
-///   across          m_c (l²/12 + r²/4) + m_s (2r²/5 + l²/4 + 3 l r/8)
-Mass of_part(const Capsule& c, double density) {
+/// A cylinder (length l, mass m_c) and two half spheres (total mass m_s). The centre of mass of a
+/// half sphere lies 3/8 r beyond the end of the cylinder. Moments of inertia about the centre:
+///   axial       m_c r²/2 + m_s 2r²/5
+///   transverse  m_c (l²/12 + r²/4) + m_s (2r²/5 + l²/4 + 3 l r/8)
+Mass mass_of_part(const Capsule& c, double density) {
   const Vec3 &a = c.from_m, &b = c.to_m;
   const double l = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]), r = c.radius_m;
   const double cylinder = density * pi * r * r * l, spheres = density * 4 / 3 * pi * r * r * r;
-  const double along = cylinder * r * r / 2 + spheres * 0.4 * r * r;
-  const double across =
+  const double axial = cylinder * r * r / 2 + spheres * 0.4 * r * r;
+  const double transverse =
       cylinder * (l * l / 12 + r * r / 4) + spheres * (0.4 * r * r + l * l / 4 + 3 * l * r / 8);
   Mass mass{cylinder + spheres, {}, {}};
   Vec3 axis{0, 0, 1};
@@ -39,17 +40,18 @@ Mass of_part(const Capsule& c, double density) {
     mass.com_m[i] = (a[i] + b[i]) / 2;
     if (l > 0) axis[i] = (b[i] - a[i]) / l;
   }
-  // I = across 1 + (along − across) axis axisᵀ
+  // I = transverse E + (axial − transverse) axis axisᵀ, E the unit matrix
   constexpr std::size_t entries[6][2]{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
   for (std::size_t k = 0; k < 6; ++k)
-    mass.inertia_kg_m2[k] =
-        (k < 3 ? across : 0.0) + (along - across) * axis[entries[k][0]] * axis[entries[k][1]];
+    mass.inertia_kg_m2[k] = (k < 3 ? transverse : 0.0) +
+                            (axial - transverse) * axis[entries[k][0]] * axis[entries[k][1]];
   return mass;
 }
 
-Mass of_part(const Weight& w, double) { return {w.mass_kg, w.at_m, {}}; }
+Mass mass_of_part(const Weight& w, double) { return {w.mass_kg, w.at_m, {}}; }
 
-/// Moves the reference point of the inertia from the centre of mass by `d`; `sign` −1 moves it back.
+/// Steiner: changes the inertia about the centre of mass to that about a point at distance `d`;
+/// with `sign` −1 in the other direction.
 void shift(Mass& mass, const Vec3& d, double sign) {
   const double m = sign * mass.mass_kg;
   auto& i = mass.inertia_kg_m2;
@@ -74,7 +76,7 @@ Mass given_mass(const Body& body) {
 }  // namespace
 
 Mass combined(std::vector<Mass> masses) {
-  Mass sum;  // inertia about the origin until the last shift
+  Mass sum;  // until the last shift: com_m is Σ m r, and the inertia is about the origin
   for (Mass& mass : masses) {
     shift(mass, mass.com_m, 1);
     sum.mass_kg += mass.mass_kg;
@@ -92,7 +94,7 @@ Mass mass_of(const Body& body) {
   const double density = body.density_kg_per_m3.value_or(0);
   std::vector<Mass> masses;
   for (const Part& part : body.parts)
-    masses.push_back(std::visit([&](const auto& p) { return of_part(p, density); }, part));
+    masses.push_back(std::visit([&](const auto& p) { return mass_of_part(p, density); }, part));
   return combined(std::move(masses));
 }
 

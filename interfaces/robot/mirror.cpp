@@ -5,7 +5,7 @@
 namespace erp {
 namespace {
 
-// p → M p, M = diag(1, −1, 1). Zero keeps its sign, so that files do not fill with "-0".
+// p → M p, M = diag(1, −1, 1). Zero keeps its sign: files do not contain "-0".
 double negated(double x) { return x == 0.0 ? 0.0 : -x; }
 Vec3 reflected(const Vec3& p) { return {p[0], negated(p[1]), p[2]}; }
 // a → −M a
@@ -39,7 +39,7 @@ void reflect(Pulley& pulley) {
   if (auto& axis = pulley.axis) axis = reflected_axis(*axis);
 }
 
-/// The mirror image of a rotation vector is (−x, y, −z), so sensors about x and z change their sign.
+/// The mirror image of a rotation vector is (−x, y, −z): readings about x and z change sign.
 void reflect(JointSensor& sensor) {
   if (!sensor.about || *sensor.about == AxisName::y) return;
   std::swap(sensor.min_rad, sensor.max_rad);
@@ -47,8 +47,8 @@ void reflect(JointSensor& sensor) {
     if (*end) **end = negated(**end);
 }
 
-/// Replaces the prefix of names.
-struct Rename {
+/// Replaces the prefix `from` of a name by `to`.
+struct PrefixReplacement {
   const Mirror& mirror;
   void operator()(std::string& name) const {
     if (name.starts_with(mirror.from)) name.replace(0, mirror.from.size(), mirror.to);
@@ -59,32 +59,33 @@ struct Rename {
   }
 };
 
-void rename(Skeleton& skeleton, const Rename& rename) {
-  for (Body& body : skeleton.bodies) rename(body.name);
-  for (Joint& joint : skeleton.joints) rename.each(joint.name, joint.parent, joint.child);
-  for (Contact& contact : skeleton.contacts) rename.each(contact.body, contact.on);
+void rename(Skeleton& skeleton, const PrefixReplacement& replace_prefix) {
+  for (Body& body : skeleton.bodies) replace_prefix(body.name);
+  for (Joint& joint : skeleton.joints) replace_prefix.each(joint.name, joint.parent, joint.child);
+  for (Contact& contact : skeleton.contacts) replace_prefix.each(contact.body, contact.on);
 }
 
 }  // namespace
 
 Robot mirrored(Robot part, const Mirror& mirror) {
-  const Rename renamed{mirror};
-  for (Skeleton& skeleton : part.skeletons) reflect(skeleton), rename(skeleton, renamed);
-  for (MotorType& type : part.motor_types) renamed(type.name);
-  for (SensorType& type : part.sensor_types) renamed(type.name);
+  const PrefixReplacement replace_prefix{mirror};
+  for (Skeleton& skeleton : part.skeletons) reflect(skeleton), rename(skeleton, replace_prefix);
+  for (MotorType& type : part.motor_types) replace_prefix(type.name);
+  for (SensorType& type : part.sensor_types) replace_prefix(type.name);
   for (Actuator& actuator : part.actuators) {
-    renamed.each(actuator.name, actuator.limb, actuator.motor, actuator.sensors);
+    replace_prefix.each(actuator.name, actuator.limb, actuator.motor, actuator.sensors);
     for (auto& point : actuator.tendon.path)
-      std::visit([&](auto& p) { reflect(p), renamed(p.body); }, point);
+      std::visit([&](auto& p) { reflect(p), replace_prefix(p.body); }, point);
   }
-  for (Drive& drive : part.drives) renamed.each(drive.name, drive.motor);
-  for (Pretension& pretension : part.pretensions) renamed(pretension.actuator);
-  for (Effect& effect : part.effects) renamed(effect.on);
-  for (Tolerance& tolerance : part.tolerances) renamed(tolerance.on);
-  for (JointSensor& sensor : part.joint_sensors) renamed(sensor.joint), reflect(sensor);
-  for (Potentiometer& sensor : part.potentiometers) renamed(sensor.actuator);
-  for (BusPlan& bus : part.can_buses) renamed(bus.name);
-  for (Imu& imu : part.imus) imu.at_m = reflected(imu.at_m), renamed.each(imu.name, imu.body);
+  for (Drive& drive : part.drives) replace_prefix.each(drive.name, drive.motor);
+  for (Pretension& pretension : part.pretensions) replace_prefix(pretension.actuator);
+  for (Effect& effect : part.effects) replace_prefix(effect.on);
+  for (Tolerance& tolerance : part.tolerances) replace_prefix(tolerance.on);
+  for (JointSensor& sensor : part.joint_sensors) replace_prefix(sensor.joint), reflect(sensor);
+  for (Potentiometer& sensor : part.potentiometers) replace_prefix(sensor.actuator);
+  for (BusPlan& bus : part.can_buses) replace_prefix(bus.name);
+  for (Imu& imu : part.imus)
+    imu.at_m = reflected(imu.at_m), replace_prefix.each(imu.name, imu.body);
   return part;
 }
 

@@ -37,18 +37,18 @@ std::vector<AnalogInput> Robot::analog_inputs() const {
 }
 
 std::vector<int> Robot::ecus() const {
-  std::set<int> used;
-  for (const Actuator& actuator : actuators) used.insert(actuator.ecu);
-  for (const AnalogInput& input : analog_inputs()) used.insert(input.ecu);
-  return {used.begin(), used.end()};
+  std::set<int> addresses;
+  for (const Actuator& actuator : actuators) addresses.insert(actuator.ecu);
+  for (const AnalogInput& input : analog_inputs()) addresses.insert(input.ecu);
+  return {addresses.begin(), addresses.end()};
 }
 
 std::vector<BusPlan> Robot::buses() const {
   if (!can_buses.empty()) return can_buses;
-  BusPlan only;
-  only.name = "can";
-  only.ecus = ecus();
-  return {only};
+  BusPlan single_bus;
+  single_bus.name = "can";
+  single_bus.ecus = ecus();
+  return {single_bus};
 }
 
 Vec3 Robot::gravity_m_per_s2() const {
@@ -59,7 +59,7 @@ Vec3 Robot::gravity_m_per_s2() const {
 
 namespace {
 template <class Type>
-const Type& named(const std::vector<Type>& types, const std::string& name) {
+const Type& find_type(const std::vector<Type>& types, const std::string& name) {
   for (const Type& type : types)
     if (type.name == name) return type;
   throw std::out_of_range(std::string("the robot has no ") + Type::element + " \"" + name + "\"");
@@ -67,11 +67,11 @@ const Type& named(const std::vector<Type>& types, const std::string& name) {
 }  // namespace
 
 const MotorType& Robot::motor_of(const Actuator& actuator) const {
-  return named(motor_types, actuator.motor);
+  return find_type(motor_types, actuator.motor);
 }
 
 const SensorType& Robot::sensors_of(const Actuator& actuator) const {
-  return named(sensor_types, actuator.sensors);
+  return find_type(sensor_types, actuator.sensors);
 }
 
 Robot read_robot(const std::string& file) {

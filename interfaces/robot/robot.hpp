@@ -11,13 +11,13 @@
 #include "interfaces/robot/skeleton.hpp"
 #include "interfaces/xml/fields.hpp"
 
-/// robot.xml as plain structs. Each struct lists its attributes and children once, in `visit`, which
-/// the strict reader, the writer and the XSD use.
+/// robot.xml as plain structs. Each struct lists its attributes and children once, in `visit`. The
+/// strict reader, the writer and the XSD use that list.
 namespace erp {
 
 struct Pretension {
   static constexpr auto element = "pretension";
-  static constexpr auto meaning =
+  static constexpr auto description =
       "Pretension of one tendon, instead of that in its <tendon>, since pretensions must balance "
       "the whole robot; of several for one actuator, the last applies. `erp model balance` "
       "computes them.";
@@ -31,16 +31,17 @@ struct Pretension {
   }
 };
 
-/// `<tolerance of="resistance_ohm" on="flexor" relative="0.1"/>`. sim/gap lists and checks the constants.
+/// `<tolerance of="resistance_ohm" on="flexor" relative="0.1"/>`. sim/gap lists and checks the
+/// constants.
 struct Tolerance {
   static constexpr auto element = "tolerance";
-  static constexpr auto meaning =
+  static constexpr auto description =
       "Standard deviation of a constant of the built robot from its value in robot.xml, for the "
       "diagnosis and `erp gap calibrate`; simulation and control ignore it. Of several for one "
       "constant, the last applies.";
   xml::Place place;
   std::string of, on;
-  std::optional<double> relative, absolute;  ///< exactly one of both
+  std::optional<double> relative, absolute;  ///< exactly one of the two
   void visit(auto& v) {
     v.required(
         "of", of,
@@ -61,7 +62,7 @@ struct Tolerance {
 
 struct Include {
   static constexpr auto element = "include";
-  static constexpr auto meaning =
+  static constexpr auto description =
       "Another robot.xml, whose elements are added to this robot. The name of that robot is "
       "ignored.";
   xml::Place place;
@@ -76,7 +77,7 @@ struct Include {
 
 struct Mirror {
   static constexpr auto element = "mirror";
-  static constexpr auto meaning =
+  static constexpr auto description =
       "Another robot.xml, reflected at its plane y = 0 and added to this robot, such as a left arm "
       "as a right one. Equal joint angles are mirror images.";
   xml::Place place;
@@ -94,15 +95,14 @@ struct Mirror {
   }
 };
 
-/// A robot. After `read_robot` the lists of includes, mirrors and pretensions are empty, since it has
-/// applied them.
+/// A robot. `read_robot` applies includes, mirrors and pretensions; their lists are then empty.
 struct Robot {
   static constexpr auto element = "robot";
-  static constexpr auto meaning =
+  static constexpr auto description =
       "Robot with tendons or drives, or a part of one that another file includes.";
   xml::Place place;
   std::string name;
-  std::vector<Skeleton> skeletons;  ///< one per part; `bodies()` and `joints()` join them
+  std::vector<Skeleton> skeletons;  ///< one per part; `bodies()` and `joints()` combine them
   std::vector<MotorType> motor_types;
   std::vector<SensorType> sensor_types;
   std::vector<Actuator> actuators;
@@ -112,8 +112,8 @@ struct Robot {
   std::vector<Imu> imus;
   std::vector<BusPlan> can_buses;  ///< as in the file; `buses()` is never empty
   std::vector<Effect> effects;
-  std::vector<Tolerance> tolerances;    ///< of several for one number, the last applies
-  std::vector<Pretension> pretensions;  ///< of several for one actuator, the last applies
+  std::vector<Tolerance> tolerances;    ///< the last one for a constant applies
+  std::vector<Pretension> pretensions;  ///< the last one for an actuator applies
   std::vector<Include> includes;
   std::vector<Mirror> mirrors;
   void visit(auto& v) {
@@ -145,7 +145,8 @@ struct Robot {
   /// The CAN buses in the order of the file; if there are none, one bus with every ECU.
   std::vector<BusPlan> buses() const;
   Vec3 gravity_m_per_s2() const;  ///< zero if no part defines it
-  /// Both throw std::out_of_range when the robot has no such type (read_robot refuses such a robot).
+  /// The types of an actuator. Throw std::out_of_range if the robot does not contain them;
+  /// read_robot rejects such a robot.
   const MotorType& motor_of(const Actuator& actuator) const;
   const SensorType& sensors_of(const Actuator& actuator) const;
 };
@@ -154,7 +155,7 @@ struct Robot {
 /// Throws xml::Errors with all errors: place, value, remedy.
 Robot read_robot(const std::string& file);
 
-/// Writes one robot.xml without includes; reads back bit-equal.
+/// The robot as one robot.xml without includes; it reads back bit-equal.
 std::string write_robot(const Robot& robot);
 
 }  // namespace erp

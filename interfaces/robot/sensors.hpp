@@ -8,8 +8,8 @@
 #include "interfaces/robot/source.hpp"
 #include "interfaces/xml/fields.hpp"
 
-/// The sensors of robot.xml. Bits and range define the quantisation step; noise is rms, before
-/// quantisation.
+/// The sensors of robot.xml. Bits and range define the quantization step; noise is the rms before
+/// quantization.
 namespace erp {
 
 using xml::Vec3;
@@ -29,7 +29,7 @@ struct Sampling {
 
 struct SensorType {
   static constexpr auto element = "sensor_type";
-  static constexpr auto meaning =
+  static constexpr auto description =
       "Sensors of an actuator, sampled by the converters of its ECU: encoder, motor current and "
       "tendon tension. Several actuators may use one type.";
   xml::Place place;
@@ -69,7 +69,7 @@ struct SensorType {
        "Live zero: counts at zero tension, so that a broken wire, which reads less, is detected. "
        "Default: no live zero."});
     sampling.visit(v);
-    v("source", source, source_meaning);
+    v("source", source, source_description);
   }
 };
 
@@ -77,7 +77,7 @@ enum class AxisName { x, y, z };
 
 struct JointSensor {
   static constexpr auto element = "joint_sensor";
-  static constexpr auto meaning =
+  static constexpr auto description =
       "Sensor of a joint angle, connected to an analog input of an ECU. On a spherical or free "
       "joint it measures one component of the rotation vector.";
   xml::Place place;
@@ -108,14 +108,14 @@ struct JointSensor {
     v("max_rad", max_rad,
       "Largest angle that it measures; the reading saturates there. Default: no limit.");
     sampling.visit(v);
-    v("source", source, source_meaning);
+    v("source", source, source_description);
   }
 };
 
 /// Paper, eq. 5: S_P = (L_K − L_K0)/r + S_P0.
 struct Potentiometer {
   static constexpr auto element = "potentiometer";
-  static constexpr auto meaning =
+  static constexpr auto description =
       "Absolute potentiometer on the gearbox output (eq. 5), connected to an analog input of an "
       "ECU. Its reading falls as the line is wound up. On the ECU of its actuator it supervises "
       "the encoder.";
@@ -142,13 +142,13 @@ struct Potentiometer {
     v("noise_rad", noise_rad,
       {xml::at_least_zero, "Standard deviation (rms) of the noise before quantization."});
     sampling.visit(v);
-    v("source", source, source_meaning);
+    v("source", source, source_description);
   }
 };
 
 struct Imu {
   static constexpr auto element = "imu";
-  static constexpr auto meaning =
+  static constexpr auto description =
       "Inertial measurement unit on a body, with axes parallel to those of the body. It is "
       "connected to the host, not to an ECU.";
   xml::Place place;
@@ -183,17 +183,17 @@ struct Imu {
        "Standard deviation (rms) of the noise of each component of the angular velocity, before "
        "quantization."});
     sampling.visit(v);
-    v("source", source, source_meaning);
+    v("source", source, source_description);
   }
 };
 
 /// Name of a joint sensor on the bus: its joint and its component, such as "shoulder_x".
 std::string sample_name(const JointSensor& sensor);
 
-/// An analog input of an ECU that is in use.
+/// An analog input in use.
 struct AnalogInput {
   int ecu, input;
-  std::string reader;  ///< its sensor, for errors: sensor of joint "elbow"
+  std::string reader;  ///< its sensor, for error messages: sensor of joint "elbow"
 };
 
 }  // namespace erp

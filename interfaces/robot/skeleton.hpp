@@ -12,10 +12,10 @@
 /// Bodies and joints of robot.xml.
 namespace erp {
 
-/// Its mass is given or computed from solids and weights: see mass_of.
+/// Its mass is given, or computed from solids and weights: see mass_of.
 struct Body {
   static constexpr auto element = "body";
-  static constexpr auto meaning =
+  static constexpr auto description =
       "Rigid body. Its frame is that of the joint that moves it, or the world frame for a root "
       "body, which no joint moves. Its solids are also its shape for contacts, ropes and pictures.";
   xml::Place place;
@@ -47,7 +47,7 @@ struct Body {
       {xml::positive,
        "Density of its solids. If given, or if the body has weights, mass, centre of mass and "
        "inertia are computed from solids and weights; overlaps of solids count twice."});
-    v("source", source, source_meaning);
+    v("source", source, source_description);
     v.list(parts);
   }
 };
@@ -56,7 +56,7 @@ enum class JointType { revolute, spherical, fixed, free };
 
 struct Joint {
   static constexpr auto element = "joint";
-  static constexpr auto meaning =
+  static constexpr auto description =
       "Joint between two bodies. Joints form a tree; each body is moved by at most one. The frames "
       "of parent and child are parallel at angle zero.";
   xml::Place place;
@@ -97,13 +97,13 @@ struct Joint {
       {xml::at_least_zero,
        "Coulomb friction torque, at rest and in motion; of a spherical joint, against the angular "
        "velocity about any axis. Not for free joints."});
-    v("source", source, source_meaning);
+    v("source", source, source_description);
   }
 };
 
 struct Contact {
   static constexpr auto element = "contact";
-  static constexpr auto meaning =
+  static constexpr auto description =
       "Pair of bodies that cannot penetrate each other: their solids collide without friction or "
       "restitution. Other pairs pass through each other.";
   xml::Place place;
@@ -118,7 +118,7 @@ struct Contact {
 
 struct Skeleton {
   static constexpr auto element = "skeleton";
-  static constexpr auto meaning = "Bodies and joints of the robot, or of one of its parts.";
+  static constexpr auto description = "Bodies and joints of the robot, or of one of its parts.";
   xml::Place place;
   std::optional<Vec3> gravity_m_per_s2;  ///< in one part of a robot only
   std::vector<Body> bodies;

@@ -13,7 +13,7 @@ using xml::Vec3;
 
 struct Sphere {
   static constexpr auto element = "sphere";
-  static constexpr auto meaning = "Solid sphere.";
+  static constexpr auto description = "Solid sphere.";
   xml::Place place;
   Vec3 at_m{0, 0, 0};
   double radius_m = 0;
@@ -25,7 +25,7 @@ struct Sphere {
 
 struct Capsule {
   static constexpr auto element = "capsule";
-  static constexpr auto meaning =
+  static constexpr auto description =
       "Solid cylinder with hemispherical ends: all points within radius_m of a line segment.";
   xml::Place place;
   Vec3 from_m{0, 0, 0}, to_m{0, 0, 0};
@@ -41,7 +41,7 @@ struct Capsule {
 
 struct Box {
   static constexpr auto element = "box";
-  static constexpr auto meaning = "Solid box with edges parallel to the axes of the body.";
+  static constexpr auto description = "Solid box with edges parallel to the axes of the body.";
   xml::Place place;
   Vec3 at_m{0, 0, 0};
   Vec3 size_m{0, 0, 0};
@@ -53,7 +53,7 @@ struct Box {
 
 struct Weight {
   static constexpr auto element = "weight";
-  static constexpr auto meaning =
+  static constexpr auto description =
       "Point mass, such as a motor on a bone. A body with a weight takes its mass from its solids "
       "and weights.";
   xml::Place place;
@@ -63,7 +63,7 @@ struct Weight {
   void visit(auto& v) {
     v.required("at_m", at_m, "Position in the frame of the body.");
     v.required("mass_kg", mass_kg, {xml::positive, "Mass, added to that of the solids."});
-    v("source", source, source_meaning);
+    v("source", source, source_description);
   }
 };
 

@@ -17,7 +17,7 @@ using xml::Vec3;
 
 struct Attach {
   static constexpr auto element = "attach";
-  static constexpr auto meaning =
+  static constexpr auto description =
       "Point of a tendon that is fixed to a body. The first is the motor's end and the last the "
       "distal end; the tendon passes through those between without friction.";
   xml::Place place;
@@ -34,7 +34,7 @@ enum class PulleyShape { sphere, cylinder };
 
 struct Pulley {
   static constexpr auto element = "pulley";
-  static constexpr auto meaning =
+  static constexpr auto description =
       "Sphere or infinite cylinder without friction, fixed to a body. The tendon wraps around it "
       "where it crosses the straight path.";
   xml::Place place;
@@ -74,7 +74,7 @@ struct Pulley {
 
 struct Tendon {
   static constexpr auto element = "tendon";
-  static constexpr auto meaning =
+  static constexpr auto description =
       "Series elastic tendon, eqs 1 and 2: F = κ x + κ₃ x³ + D dx/dt for the stretch x, never "
       "negative, 0 if slack. Its path is listed from the motor's end to the distal end.";
   xml::Place place;
@@ -100,14 +100,14 @@ struct Tendon {
       {xml::at_least_zero,
        "Tension in the starting pose before the motor turns; it determines the line length L_K0 at "
        "the start. A <pretension> of the robot replaces it."});
-    v("source", source, source_meaning);
+    v("source", source, source_description);
     v.list(path);
   }
 };
 
 struct Spindle {
   static constexpr auto element = "spindle";
-  static constexpr auto meaning = "Spindle on the gearbox output, which winds up the line.";
+  static constexpr auto description = "Spindle on the gearbox output, which winds up the line.";
   xml::Place place;
   double radius_m = 0;
   void visit(auto& v) {
@@ -120,7 +120,7 @@ struct Spindle {
 
 struct Rope {
   static constexpr auto element = "rope";
-  static constexpr auto meaning =
+  static constexpr auto description =
       "Simulates the tendon as a chain of nodes that collides with solids and pulleys (the paper's "
       "physical tendon), instead of a massless line on the shortest path. Excludes an <attach> "
       "between the ends, and pulleys with an axis.";
@@ -143,7 +143,7 @@ struct Rope {
     v("friction", friction,
       {xml::Range{0, 2},
        "Coulomb friction coefficient µ between rope and solids or pulleys. Default: no friction."});
-    v("source", source, source_meaning);
+    v("source", source, source_description);
   }
 };
 

@@ -25,19 +25,19 @@ std::string unit(const Description& d) { return d.is_element ? "" : unit_of(d.na
 
 }  // namespace
 
-std::string to_table(const std::vector<Description>& all) {
-  std::size_t names = 0, types = 0, units = 0, presences = 0;
-  for (const Description& d : all) {
-    names = std::max(names, d.name.size());
-    types = std::max(types, d.type.size());
-    units = std::max(units, unit(d).size());
-    presences = std::max(presences, presence(d).size());
+std::string to_table(const std::vector<Description>& descriptions) {
+  std::size_t name_width = 0, type_width = 0, unit_width = 0, presence_width = 0;
+  for (const Description& d : descriptions) {
+    name_width = std::max(name_width, d.name.size());
+    type_width = std::max(type_width, d.type.size());
+    unit_width = std::max(unit_width, unit(d).size());
+    presence_width = std::max(presence_width, presence(d).size());
   }
   std::string table;
-  for (const Description& d : all) {
-    std::string line = padded(d.name, names) + "  " + padded(d.type, types) + "  " +
-                       padded(unit(d), units) + "  " + padded(presence(d), presences) + "  " +
-                       d.meaning;
+  for (const Description& d : descriptions) {
+    std::string line = padded(d.name, name_width) + "  " + padded(d.type, type_width) + "  " +
+                       padded(unit(d), unit_width) + "  " + padded(presence(d), presence_width) +
+                       "  " + d.description;
     line.erase(line.find_last_not_of(' ') + 1);
     table += line + "\n";
   }

@@ -16,32 +16,33 @@ namespace {
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
-[[noreturn]] void refuse(const Place& place, const std::string& what, const std::string& remedy) {
+[[noreturn]] void throw_error(const Place& place, const std::string& what,
+                              const std::string& remedy) {
   throw Errors({{place, what, remedy}});
 }
 
-/// tinyxml2 reports lines only. But it parses in place: names and texts point into one buffer, a
-/// copy of the text. A declaration put before the text marks the beginning of that buffer, so a
-/// pointer gives an offset into the original text, and from it line and column.
+/// tinyxml2 reports lines, but no columns. It parses in place: names and texts point into one
+/// buffer, its copy of the text. A declaration before the text marks the beginning of that buffer:
+/// a pointer then gives an offset in the original text, and the offset gives line and column.
 class Tree {
  public:
   Tree(std::string_view text, const std::string& file) : text_(text), file_(file) {
-    const std::string marked = std::string(mark) + std::string(text);
-    document_.Parse(marked.data(), marked.size());
+    const std::string declared_text = std::string(declaration) + std::string(text);
+    document_.Parse(declared_text.data(), declared_text.size());
     if (document_.Error())
-      refuse(place_of_line(document_.ErrorLineNum()), "XML is not well-formed",
-             document_.ErrorName());
-    begin_ = document_.FirstChild()->Value() - std::strlen("<?") + mark.size();
+      throw_error(place_of_line(document_.ErrorLineNum()), "XML is not well-formed",
+                  document_.ErrorName());
+    begin_ = document_.FirstChild()->Value() - std::strlen("<?") + declaration.size();
   }
 
   Element root() const {
     const tinyxml2::XMLElement* root = document_.RootElement();
-    if (!root) refuse({file_, 1, 1}, "contains no element", "write the root element");
+    if (!root) throw_error({file_, 1, 1}, "contains no element", "write the root element");
     return element(*root);
   }
 
  private:
-  static constexpr std::string_view mark = "<?xml?>";
+  static constexpr std::string_view declaration = "<?xml?>";
 
   std::size_t offset(const char* in_buffer) const {
     return static_cast<std::size_t>(in_buffer - begin_);
@@ -61,7 +62,8 @@ class Tree {
   }
 
   std::pair<Place, std::string> text(const tinyxml2::XMLText& from) const {
-    const std::size_t begin = offset(from.Value());  // Value() may have shortened its line ends
+    const std::size_t begin =
+        offset(from.Value());  // Value() may shorten line ends after this position
     const std::size_t first = text_.find_first_not_of(" \t\r\n", begin);
     return {place_at(text_, first, file_), std::string(trimmed(from.Value()))};
   }
@@ -73,17 +75,18 @@ class Tree {
 };
 
 std::string contents(const std::string& file) {
-  const Place whole{file, 0, 0};
+  const Place whole_file{file, 0, 0};
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored))
-    refuse(whole, "no such file", "check the path, or create the file");
+    throw_error(whole_file, "no such file", "check the path, or create the file");
   if (std::filesystem::is_directory(file, ignored))
-    refuse(whole, "is a folder", "give the XML file in it");
+    throw_error(whole_file, "is a folder", "give the XML file in it");
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
   if (!in || !(text << in.rdbuf()).good()) {
     if (in && in.peek() == std::ifstream::traits_type::eof()) return "";
-    refuse(whole, std::string("cannot be read: ") + std::strerror(errno), "check its permissions");
+    throw_error(whole_file, std::string("cannot be read: ") + std::strerror(errno),
+                "check its permissions");
   }
   return text.str();
 }
@@ -92,7 +95,7 @@ std::string contents(const std::string& file) {
 
 Element parse_document(std::string_view text, const std::string& file) {
   if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
-  if (trimmed(text).empty()) refuse({file, 1, 1}, "is empty", "write the root element");
+  if (trimmed(text).empty()) throw_error({file, 1, 1}, "is empty", "write the root element");
   throw_if_any(malformed(text, file));
   return Tree(text, file).root();
 }

@@ -5,7 +5,7 @@
 
 #include "interfaces/xml/errors.hpp"
 
-/// An XML text as a tree of plain structs whose elements and attributes have their place.
+/// An XML text as a tree of plain structs. Elements and attributes contain their place in the file.
 namespace xml {
 
 struct Element {
@@ -16,21 +16,22 @@ struct Element {
   std::vector<std::pair<Place, std::string>> stray_text;  ///< text between the children
 };
 
-/// The root element of a text. Throws Errors (one) when the text is not well-formed XML.
-/// `file` is only the file name in errors.
+/// The root element of a text. Throws Errors with one error when the text is not well-formed XML.
+/// `file`: file name in error messages.
 Element parse_document(std::string_view text, const std::string& file);
 
 /// The root element of a file. Throws Errors also when it is missing, unreadable or empty.
 Element read_document(const std::string& file);
 
-/// Reports a root element with another name.
+/// One error if the root element has another name; otherwise empty.
 std::vector<Error> wrong_root(const Element& root, const std::string& expected);
 
 /// Resolves a file name relative to the folder of `from_file`, the file that contains it.
 std::string resolved(const std::string& file, const std::string& from_file);
 
-/// The first violation of XML 1.0 in a text, with its place. tinyxml2 accepts some violations and
-/// reports lines only. Covers elements, attributes, entities and comments.
+/// The first violation of XML 1.0 in a text, with its place; empty if there is none. Covers
+/// elements, attributes, entities and comments. tinyxml2 accepts some violations and reports no
+/// columns.
 std::vector<Error> malformed(std::string_view text, const std::string& file);
 
 /// Line and column (both from 1, columns in characters) of a byte in a text.

@@ -13,7 +13,7 @@ struct Error {
   std::string what, remedy;
 };
 
-/// `file:line:column: what; remedy`. Line 0 means the file as a whole.
+/// `file:line:column: what; remedy`. Line 0 refers to the file as a whole.
 std::string to_string(const Error& error);
 
 /// An error about the element `<element>` at `place`.

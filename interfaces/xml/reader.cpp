@@ -16,34 +16,34 @@ bool belongs_to_editors(const std::string& name) {
 
 }  // namespace
 
-const Attribute* Reader::written(const std::string& name) const {
+const Attribute* Reader::exact_attribute(const std::string& name) const {
   for (const Attribute& a : element_.attributes)
     if (a.name == name) return &a;
   return nullptr;
 }
 
-const Attribute* Reader::attribute(const std::string& name) {
-  if (const Attribute* found = written(name)) return found;
-  for (const auto& [former, now] : former_names_) {
-    if (now != name) continue;
-    const Attribute* found = written(former);
-    if (!found) continue;
-    warn_renamed(found->place, former, now);
+const Attribute* Reader::find_attribute(const std::string& name) {
+  if (const Attribute* attribute = exact_attribute(name)) return attribute;
+  for (const auto& [former, current] : former_names_) {
+    if (current != name) continue;
+    const Attribute* attribute = exact_attribute(former);
+    if (!attribute) continue;
+    warn_renamed(attribute->place, former, current);
     known_attributes_.push_back(former);
-    return found;
+    return attribute;
   }
   return nullptr;
 }
 
-void Reader::refuse_second(const Element& child, const Element& first) {
+void Reader::add_second_element_error(const Element& child, const Element& first) {
   errors_.push_back(error_in(element_.name, child.place, "a second <" + child.name + ">",
                              "keep one; the first is in line " + std::to_string(first.place.line)));
 }
 
-void Reader::refuse(const Attribute& attribute, const Refusal& refusal) {
+void Reader::add_value_error(const Attribute& attribute, const ValueError& error) {
   errors_.push_back(error_in(element_.name, attribute.place,
-                             attribute.name + "=" + quote(attribute.value) + " " + refusal.what,
-                             refusal.remedy));
+                             attribute.name + "=" + quote(attribute.value) + " " + error.what,
+                             error.remedy));
 }
 
 void Reader::rest(std::vector<Attribute>& values) {
@@ -54,11 +54,11 @@ void Reader::rest(std::vector<Attribute>& values) {
     }
 }
 
-/// Reports an unknown name, and removes its nearest known name from the missing ones, so that a
-/// misspelt name gives one error.
-void Reader::refuse_unknown(const std::string& kind, const Place& place, const std::string& name,
-                            const std::vector<std::string>& known,
-                            std::vector<std::string>& missing) {
+/// Reports an unknown name. Removes the nearest known name from the missing ones: a misspelt name
+/// then gives one error, not two.
+void Reader::add_unknown_name_error(const std::string& kind, const Place& place,
+                                    const std::string& name, const std::vector<std::string>& known,
+                                    std::vector<std::string>& missing) {
   std::erase(missing, nearest(name, known));
   errors_.push_back(error_in(element_.name, place, "unknown " + kind + " " + quote(name),
                              did_you_mean(name, known)));
@@ -67,10 +67,11 @@ void Reader::refuse_unknown(const std::string& kind, const Place& place, const s
 void Reader::finish() {
   for (const Attribute& a : element_.attributes)
     if (!has(known_attributes_, a.name) && !belongs_to_editors(a.name))
-      refuse_unknown("attribute", a.place, a.name, known_attributes_, missing_attributes_);
+      add_unknown_name_error("attribute", a.place, a.name, known_attributes_, missing_attributes_);
   for (const Element& child : element_.children)
     if (!has(known_children_, child.name))
-      refuse_unknown("element", child.place, child.name, known_children_, missing_children_);
+      add_unknown_name_error("element", child.place, child.name, known_children_,
+                             missing_children_);
   for (const auto& [place, text] : element_.stray_text)
     errors_.push_back(error_in(element_.name, place, "stray text " + quote(text),
                                "remove it, or put it into a comment"));

@@ -10,8 +10,8 @@
 
 namespace xml {
 
-/// Fills a struct from an element through its `visit`, and collects all errors. One Reader per
-/// element; `finish` refuses attributes and children that the struct does not list.
+/// Fills a struct from an element by its `visit`, and collects all errors. Each element has its own
+/// Reader. `finish` reports attributes and children that the struct does not list.
 class Reader {
  public:
   Reader(const Element& element, std::vector<Error>& errors) : element_(element), errors_(errors) {}
@@ -19,33 +19,33 @@ class Reader {
   template <class T>
   void operator()(const char* name, T& value, const Field& field = {}) {
     known_attributes_.push_back(name);
-    if (const Attribute* found = attribute(name)) read(*found, value, field.range);
+    if (const Attribute* attribute = find_attribute(name)) read(*attribute, value, field.range);
   }
 
   template <class T>
   void required(const char* name, T& value, const Field& field = {}) {
     known_attributes_.push_back(name);
-    const Attribute* found = attribute(name);
-    if (!found) return void(missing_attributes_.push_back(name));
-    if (std::is_same_v<T, std::string> && trimmed(found->value).empty())
-      return refuse(*found, {"is empty", "give a text"});
-    read(*found, value, field.range);
+    const Attribute* attribute = find_attribute(name);
+    if (!attribute) return void(missing_attributes_.push_back(name));
+    if (std::is_same_v<T, std::string> && trimmed(attribute->value).empty())
+      return add_value_error(*attribute, {"is empty", "give a text"});
+    read(*attribute, value, field.range);
   }
 
-  /// From now on the attribute `name` is also read under its former name.
+  /// Declares a former name of the attribute `name`. Call it before that attribute.
   void former(const char* former_name, const char* name) {
     former_names_.push_back({former_name, name});
   }
 
   template <class T>
   void child(T& value) {
-    if (const Element* found = only<T>()) fill(value, *found, errors_);
+    if (const Element* element = single_child<T>()) fill(value, *element, errors_);
     else missing_children_.push_back(T::element);
   }
 
   template <class T>
   void optional_child(std::optional<T>& value) {
-    if (const Element* found = only<T>()) fill(value.emplace(), *found, errors_);
+    if (const Element* element = single_child<T>()) fill(value.emplace(), *element, errors_);
   }
 
   template <class T>
@@ -76,17 +76,19 @@ class Reader {
 
  private:
   struct FormerName {
-    std::string former, now;
+    std::string former, current;
   };
-  /// Also under its former name, with a warning.
-  const Attribute* attribute(const std::string& name);
-  const Attribute* written(const std::string& name) const;
-  void refuse_second(const Element& child, const Element& first);
-  void refuse(const Attribute& attribute, const Refusal& refusal);
-  void refuse_unknown(const std::string& kind, const Place& place, const std::string& name,
-                      const std::vector<std::string>& known, std::vector<std::string>& missing);
+  /// The attribute with this name, or with its former name (prints a warning); null if there is
+  /// none.
+  const Attribute* find_attribute(const std::string& name);
+  const Attribute* exact_attribute(const std::string& name) const;
+  void add_second_element_error(const Element& child, const Element& first);
+  void add_value_error(const Attribute& attribute, const ValueError& error);
+  void add_unknown_name_error(const std::string& kind, const Place& place, const std::string& name,
+                              const std::vector<std::string>& known,
+                              std::vector<std::string>& missing);
 
-  /// Whether a child is the element of a T; warns if it has the former name.
+  /// Whether `child` has the element name of T. Warns if it has the former name.
   template <class T>
   bool is_a(const Element& child) {
     if (!is_element_name<T>(child.name)) return false;
@@ -94,21 +96,22 @@ class Reader {
     if (child.name != T::element) known_children_.push_back(child.name);
     return true;
   }
-  /// The child that is the element of a T; reports a second one.
+  /// The child element of type T; null if there is none. Reports a second one.
   template <class T>
-  const Element* only() {
+  const Element* single_child() {
     known_children_.push_back(T::element);
-    const Element* found = nullptr;
+    const Element* first = nullptr;
     for (const Element& child : element_.children) {
       if (!is_a<T>(child)) continue;
-      if (found) refuse_second(child, *found);
-      else found = &child;
+      if (first) add_second_element_error(child, *first);
+      else first = &child;
     }
-    return found;
+    return first;
   }
   template <class T>
-  void read(const Attribute& found, T& value, const Range& range) {
-    if (const Refused refused = Codec<T>::read(found.value, value, range)) refuse(found, *refused);
+  void read(const Attribute& attribute, T& value, const Range& range) {
+    if (const std::optional<ValueError> error = Codec<T>::read(attribute.value, value, range))
+      add_value_error(attribute, *error);
   }
   template <class Kind, class Variant>
   void append_if_named(std::vector<Variant>& values, const Element& child) {

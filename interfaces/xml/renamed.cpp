@@ -10,7 +10,7 @@
 
 namespace xml {
 
-void warn_renamed(const Place& place, const std::string& former, const std::string& now) {
+void warn_renamed(const Place& place, const std::string& former, const std::string& current) {
   static std::mutex mutex;
   static std::set<std::pair<std::string, std::string>> reported;
   const std::lock_guard lock(mutex);
@@ -19,7 +19,7 @@ void warn_renamed(const Place& place, const std::string& former, const std::stri
     return text.starts_with('<') ? text : quote(text);
   };
   const std::string line =
-      to_string({place, name(former) + " is deprecated", "write " + name(now)});
+      to_string({place, name(former) + " is deprecated", "write " + name(current)});
   std::fprintf(stderr, "warning: %s\n", line.c_str());
 }
 

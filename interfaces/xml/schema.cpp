@@ -8,27 +8,28 @@ namespace {
 
 using Child = SchemaParts::Child;
 
-/// `<xs:annotation>` with the meaning; empty without one.
-std::string annotation(const std::string& meaning) {
-  if (meaning.empty()) return "";
+/// `<xs:annotation>` with the description; empty without one.
+std::string annotation(const std::string& description) {
+  if (description.empty()) return "";
   std::string text;
-  for (const char c : meaning) text += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
+  for (const char c : description)
+    text += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
   return "<xs:annotation><xs:documentation>" + text + "</xs:documentation></xs:annotation>";
 }
 
 std::string attribute_text(const SchemaParts::Attribute& attribute) {
   return "<xs:attribute name=\"" + attribute.name + "\"" +
-         (attribute.required ? " use=\"required\">" : ">") + annotation(attribute.meaning) +
+         (attribute.required ? " use=\"required\">" : ">") + annotation(attribute.description) +
          attribute.type + "</xs:attribute>";
 }
 
 std::string child_text(const Child& child) {
   return "<xs:element name=\"" + child.name + "\"" +
-         (child.count == Child::optional ? " minOccurs=\"0\">" : ">") + annotation(child.meaning) +
-         child.type + "</xs:element>";
+         (child.count == Child::optional ? " minOccurs=\"0\">" : ">") +
+         annotation(child.description) + child.type + "</xs:element>";
 }
 
-/// The base types, which restrict numbers to the reader's notation without infinities.
+/// The base types. They restrict numbers to the notation of the reader, without infinities.
 const char* const base_types = R"(<xs:simpleType name="number">
 <xs:restriction base="xs:double">
 <xs:pattern value="[+\-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+\-]?[0-9]+)?"/>
@@ -67,8 +68,8 @@ std::string indented(const std::string& lines) {
     const std::size_t end = lines.find('\n', begin);
     const std::string line = lines.substr(begin, end - begin);
     const bool closes = line.starts_with("</");
-    const bool whole = !closes && line.find("</") != line.npos;
-    const bool opens = !closes && !whole && !line.ends_with("/>") && !line.starts_with("<?") &&
+    const bool is_closed = !closes && line.find("</") != line.npos;
+    const bool opens = !closes && !is_closed && !line.ends_with("/>") && !line.starts_with("<?") &&
                        !line.starts_with("<!");
     if (closes) --depth;
     text += std::string(2 * depth, ' ') + line + "\n";
@@ -82,17 +83,18 @@ std::string indented(const std::string& lines) {
 
 std::string complex_type(const SchemaParts& parts) {
   const auto is_list = [](const Child& c) { return c.count == Child::any_number; };
-  const bool lists = std::any_of(parts.children.begin(), parts.children.end(), is_list);
-  if (lists && !std::all_of(parts.children.begin(), parts.children.end(), is_list))
+  const bool has_lists = std::any_of(parts.children.begin(), parts.children.end(), is_list);
+  if (has_lists && !std::all_of(parts.children.begin(), parts.children.end(), is_list))
     throw std::logic_error(
         "an element has both lists and single children; XSD 1.0 cannot express this");
   std::string text;
   for (const Child& child : parts.children) text += child_text(child);
-  if (lists) text = "<xs:choice minOccurs=\"0\" maxOccurs=\"unbounded\">" + text + "</xs:choice>";
+  if (has_lists)
+    text = "<xs:choice minOccurs=\"0\" maxOccurs=\"unbounded\">" + text + "</xs:choice>";
   else if (!text.empty()) text = "<xs:all>" + text + "</xs:all>";
   for (const SchemaParts::Attribute& attribute : parts.attributes)
     text += attribute_text(attribute);
-  if (parts.others) text += "<xs:anyAttribute processContents=\"skip\"/>";
+  if (parts.allows_others) text += "<xs:anyAttribute processContents=\"skip\"/>";
   return text.empty() ? "<xs:complexType/>" : "<xs:complexType>" + text + "</xs:complexType>";
 }
 

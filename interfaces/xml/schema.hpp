@@ -15,23 +15,24 @@ struct SchemaParts {
   struct Attribute {
     std::string name, type;  ///< type: an `<xs:simpleType>`
     bool required = false;
-    std::string meaning = "";
+    std::string description = "";
   };
   struct Child {
     std::string name, type;  ///< type: an `<xs:complexType>`
     enum Count { one, optional, any_number } count = one;
-    std::string meaning = "";
+    std::string description = "";
   };
   std::vector<Attribute> attributes;
   std::vector<Child> children;
-  bool others = false;  ///< attributes with other names are allowed
+  bool allows_others = false;  ///< attributes with other names are allowed
 };
 
-/// `<xs:complexType>` of an element. XSD 1.0 allows unordered children (xs:all) only up to one of
-/// each, so a struct has either single children or lists; throws std::logic_error for both.
+/// `<xs:complexType>` of an element. In XSD 1.0, unordered children (xs:all) occur at most once
+/// each: a struct has either single children or lists. Throws std::logic_error for a struct with
+/// both.
 std::string complex_type(const SchemaParts& parts);
 
-/// The whole document around the type of the root element, one tag per line, indented.
+/// The XSD document with the type of the root element, one tag per line, indented.
 std::string schema_document(const std::string& root_name, const std::string& root_type);
 
 /// Derives the XSD type of a struct from its `visit`.
@@ -39,13 +40,13 @@ class Schema : public CurrentNamesOnly {
  public:
   template <class T>
   void operator()(const char* name, const T&, const Field& field = {}) {
-    parts_.attributes.push_back({name, Codec<T>::xsd(field.range), false, field.meaning});
+    parts_.attributes.push_back({name, Codec<T>::xsd(field.range), false, field.description});
   }
   template <class T>
   void required(const char* name, const T&, const Field& field = {}) {
     const bool text = std::is_same_v<T, std::string>;
     parts_.attributes.push_back(
-        {name, text ? xsd_filled_text() : Codec<T>::xsd(field.range), true, field.meaning});
+        {name, text ? xsd_filled_text() : Codec<T>::xsd(field.range), true, field.description});
   }
   template <class T>
   void child(T&) {
@@ -64,20 +65,20 @@ class Schema : public CurrentNamesOnly {
     (add<Kinds>(SchemaParts::Child::any_number), ...);
   }
 
-  void rest(const std::vector<Attribute>&) { parts_.others = true; }
+  void rest(const std::vector<Attribute>&) { parts_.allows_others = true; }
 
   template <class T>
   static std::string type_of() {
-    T fresh{};
+    T item{};
     Schema schema;
-    fresh.visit(schema);
+    item.visit(schema);
     return complex_type(schema.parts_);
   }
 
  private:
   template <class T>
   void add(SchemaParts::Child::Count count) {
-    parts_.children.push_back({T::element, type_of<T>(), count, meaning_of_element<T>()});
+    parts_.children.push_back({T::element, type_of<T>(), count, description_of_element<T>()});
   }
   SchemaParts parts_;
 };

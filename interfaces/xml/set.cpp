@@ -4,22 +4,22 @@
 
 namespace xml {
 
-Refused Setter::outcome() const {
-  if (found_) return refused_;
-  return Refusal{"unknown parameter " + quote(head_), did_you_mean(head_, known_)};
+std::optional<ValueError> Setter::result() const {
+  if (is_found_) return error_;
+  return ValueError{"unknown parameter " + quote(name_), did_you_mean(name_, valid_names_)};
 }
 
 void Setter::former(const char* former_name, const char* name) {
-  if (!tail_.empty() || head_ != former_name) return;
-  warn_renamed({"--set " + std::string(head_) + "=" + std::string(text_), 0, 0}, former_name, name);
-  head_ = name;
+  if (!inner_path_.empty() || name_ != former_name) return;
+  warn_renamed({"--set " + std::string(name_) + "=" + std::string(text_), 0, 0}, former_name, name);
+  name_ = name;
 }
 
 void Setter::finish(std::string_view path) const {
-  if (const Refused refused = outcome())
+  if (const std::optional<ValueError> error = result())
     throw Errors({{{"--set " + std::string(path) + "=" + std::string(text_), 0, 0},
-                   refused->what,
-                   refused->remedy}});
+                   error->what,
+                   error->remedy}});
 }
 
 }  // namespace xml

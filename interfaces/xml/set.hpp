@@ -9,35 +9,35 @@
 
 namespace xml {
 
-/// Sets one attribute by its path: `gain`, `spindle.radius_m` for a single child, and
-/// `flexor.gain` for the list item whose `name` is flexor. Call `finish` after the visit.
+/// Sets one attribute by its path: `gain`; `spindle.radius_m` in a single child; `flexor.gain` in
+/// the list item with the name flexor. Call `finish` after `visit`.
 class Setter {
  public:
   Setter(std::string_view path, std::string_view text) : text_(text) {
     const std::size_t dot = path.find('.');
-    head_ = path.substr(0, dot);
-    if (dot != path.npos) tail_ = path.substr(dot + 1);
+    name_ = path.substr(0, dot);
+    if (dot != path.npos) inner_path_ = path.substr(dot + 1);
   }
 
   template <class T>
   void operator()(const char* name, T& value, const Field& field = {}) {
-    known_.push_back(name);
-    if (!tail_.empty() || head_ != name) return;
-    found_ = true;
-    refused_ = Codec<T>::read(text_, value, field.range);
+    valid_names_.push_back(name);
+    if (!inner_path_.empty() || name_ != name) return;
+    is_found_ = true;
+    error_ = Codec<T>::read(text_, value, field.range);
   }
   template <class T>
   void required(const char* name, T& value, const Field& field = {}) {
     (*this)(name, value, field);
   }
-  /// From now on the attribute `name` is also set under its former name.
+  /// Declares a former name of the attribute `name`. Call it before that attribute.
   void former(const char* former_name, const char* name);
 
   void rest(std::vector<Attribute>& values) {
     for (Attribute& attribute : values) {
-      known_.push_back(attribute.name.c_str());
-      if (!tail_.empty() || head_ != attribute.name) continue;
-      found_ = true;
+      valid_names_.push_back(attribute.name.c_str());
+      if (!inner_path_.empty() || name_ != attribute.name) continue;
+      is_found_ = true;
       attribute.value = text_;
     }
   }
@@ -48,7 +48,7 @@ class Setter {
   template <class T>
   void optional_child(std::optional<T>& value) {
     if (value) enter(T::element, *value);
-    else if (head_ == T::element) enter(T::element, value.emplace());
+    else if (name_ == T::element) enter(T::element, value.emplace());
   }
   template <class T>
   void list(std::vector<T>& values) {
@@ -65,26 +65,26 @@ class Setter {
           value);
   }
 
-  /// Throws Errors when no attribute has that path or the text was refused. `path`: the full path, for
-  /// the error.
+  /// Throws Errors when no attribute has the path or the text is not valid. `path`: the full path,
+  /// for the error message.
   void finish(std::string_view path) const;
 
  private:
   template <class T>
   void enter(const std::string& name, T& value) {
-    known_.push_back(name);
-    if (tail_.empty() || head_ != name) return;
-    Setter inner(tail_, text_);
+    valid_names_.push_back(name);
+    if (inner_path_.empty() || name_ != name) return;
+    Setter inner(inner_path_, text_);
     value.visit(inner);
-    found_ = true;
-    refused_ = inner.outcome();
+    is_found_ = true;
+    error_ = inner.result();
   }
-  Refused outcome() const;
+  std::optional<ValueError> result() const;
 
-  std::string_view head_, tail_, text_;
-  std::vector<std::string> known_;
-  bool found_ = false;
-  Refused refused_;
+  std::string_view name_, inner_path_, text_;
+  std::vector<std::string> valid_names_;
+  bool is_found_ = false;
+  std::optional<ValueError> error_;
 };
 
 }  // namespace xml

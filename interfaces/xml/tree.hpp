@@ -6,12 +6,12 @@
 
 namespace xml {
 
-/// An element that is built step by step, for formats of other programs.
+/// An element that code builds step by step, for file formats of other programs.
 struct Tree {
   std::string name;
   std::vector<WrittenAttribute> attributes;
-  std::string text;          ///< instead of children
-  std::list<Tree> children;  ///< references stay valid when others are added
+  std::string text;          ///< if not empty, written instead of children
+  std::list<Tree> children;  ///< a list: references stay valid when children are added
 
   explicit Tree(std::string tag) : name(std::move(tag)) {}
   Tree& add(std::string tag) { return children.emplace_back(std::move(tag)); }
@@ -29,7 +29,7 @@ struct Tree {
   Tree& set(std::string key, const char* value) { return set(std::move(key), std::string(value)); }
 };
 
-/// A whole document, with its XML declaration.
+/// The document as text, with its XML declaration.
 std::string write_tree(const Tree& root);
 
 }  // namespace xml

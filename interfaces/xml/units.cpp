@@ -7,7 +7,7 @@
 namespace xml {
 namespace {
 
-/// The units of names, as text.
+/// Units as written in names, and as printed.
 const std::map<std::string, std::string> units{
     {"A", "A"},    {"A2", "A²"},   {"Hz", "Hz"},         {"K", "K"},     {"N", "N"},
     {"Nm", "N m"}, {"V", "V"},     {"Vs", "V s"},        {"W", "W"},     {"H", "H"},

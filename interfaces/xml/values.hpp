@@ -14,19 +14,19 @@
 /// To support another type, specialise Codec with the same four functions.
 namespace xml {
 
-/// Why a text is not a valid value; follows `name="text" ` in an error.
-struct Refusal {
+/// Reason why a text is not a valid value; follows `name="text" ` in an error message. A function
+/// that returns std::optional<ValueError> returns no error for a valid text.
+struct ValueError {
   std::string what, remedy;
 };
-using Refused = std::optional<Refusal>;
 
-/// ` > 0`, ` from 0 to 127`, or nothing.
+/// The range as text: ` > 0`, ` from 0 to 127`; empty without limits.
 std::string range_words(const Range& range);
 
-/// A finite number in decimal notation, surrounded by nothing but white space.
-Refused read_number(std::string_view text, double& value, const Range& range);
-Refused read_integer(std::string_view text, long long& value, Range range);
-Refused read_flag(std::string_view text, bool& value);
+/// Reads a finite number in decimal notation; white space around it is allowed.
+std::optional<ValueError> read_number(std::string_view text, double& value, const Range& range);
+std::optional<ValueError> read_integer(std::string_view text, long long& value, Range range);
+std::optional<ValueError> read_flag(std::string_view text, bool& value);
 std::string write_number(double value);  ///< the shortest text that reads back to the same bits
 std::string write_number(float value);
 
@@ -41,11 +41,11 @@ struct Codec;
 
 template <std::floating_point T>
 struct Codec<T> {
-  static Refused read(std::string_view text, T& value, const Range& range) {
+  static std::optional<ValueError> read(std::string_view text, T& value, const Range& range) {
     double number = 0;
-    Refused refused = read_number(text, number, range);
-    if (!refused) value = static_cast<T>(number);
-    return refused;
+    std::optional<ValueError> error = read_number(text, number, range);
+    if (!error) value = static_cast<T>(number);
+    return error;
   }
   static std::string write(T value) { return write_number(value); }
   static std::string words(const Range& range) { return "number" + range_words(range); }
@@ -54,25 +54,27 @@ struct Codec<T> {
 
 template <class T>
 requires(std::integral<T> && !std::same_as<T, bool>) struct Codec<T> {
-  static Range within(Range range) {
+  static Range limited_to_type(Range range) {
     range.min = std::max(range.min, static_cast<double>(std::numeric_limits<T>::min()));
     range.max = std::min(range.max, static_cast<double>(std::numeric_limits<T>::max()));
     return range;
   }
-  static Refused read(std::string_view text, T& value, const Range& range) {
+  static std::optional<ValueError> read(std::string_view text, T& value, const Range& range) {
     long long number = 0;
-    Refused refused = read_integer(text, number, within(range));
-    if (!refused) value = static_cast<T>(number);
-    return refused;
+    std::optional<ValueError> error = read_integer(text, number, limited_to_type(range));
+    if (!error) value = static_cast<T>(number);
+    return error;
   }
   static std::string write(T value) { return std::to_string(value); }
   static std::string words(const Range& range) { return "integer" + range_words(range); }
-  static std::string xsd(const Range& range) { return xsd_restriction("integer", within(range)); }
+  static std::string xsd(const Range& range) {
+    return xsd_restriction("integer", limited_to_type(range));
+  }
 };
 
 template <>
 struct Codec<bool> {
-  static Refused read(std::string_view text, bool& value, const Range&) {
+  static std::optional<ValueError> read(std::string_view text, bool& value, const Range&) {
     return read_flag(text, value);
   }
   static std::string write(bool value) { return value ? "true" : "false"; }
@@ -82,7 +84,7 @@ struct Codec<bool> {
 
 template <>
 struct Codec<std::string> {
-  static Refused read(std::string_view text, std::string& value, const Range&) {
+  static std::optional<ValueError> read(std::string_view text, std::string& value, const Range&) {
     value = text;
     return {};
   }
@@ -91,19 +93,19 @@ struct Codec<std::string> {
   static std::string xsd(const Range&) { return xsd_restriction("xs:string", any); }
 };
 
-/// Words separated by white space: std::array of a fixed number, std::vector of any.
+/// Values separated by white space: std::array of a fixed number, std::vector of any number.
 template <class List, std::size_t length>
 struct ListCodec {
   using Item = typename List::value_type;
-  static Refused read(std::string_view text, List& value, const Range& range) {
+  static std::optional<ValueError> read(std::string_view text, List& value, const Range& range) {
     const auto parts = split(text);
     if (length > 0 && parts.size() != length)
-      return Refusal{"has " + std::to_string(parts.size()) + " values",
-                     "give " + std::to_string(length) + " separated by spaces"};
+      return ValueError{"has " + std::to_string(parts.size()) + " values",
+                        "give " + std::to_string(length) + " separated by spaces"};
     List read_items{};
     if constexpr (length == 0) read_items.resize(parts.size());
     for (std::size_t i = 0; i < parts.size(); ++i)
-      if (auto refused = Codec<Item>::read(parts[i], read_items[i], range)) return refused;
+      if (auto error = Codec<Item>::read(parts[i], read_items[i], range)) return error;
     value = read_items;
     return {};
   }
@@ -125,11 +127,12 @@ struct Codec<std::vector<T>> : ListCodec<std::vector<T>, 0> {};
 
 template <class T>
 struct Codec<std::optional<T>> {
-  static Refused read(std::string_view text, std::optional<T>& value, const Range& range) {
+  static std::optional<ValueError> read(std::string_view text, std::optional<T>& value,
+                                        const Range& range) {
     T inner{};
-    Refused refused = Codec<T>::read(text, inner, range);
-    if (!refused) value = inner;
-    return refused;
+    std::optional<ValueError> error = Codec<T>::read(text, inner, range);
+    if (!error) value = inner;
+    return error;
   }
   static std::string write(const std::optional<T>& value) {
     return value ? Codec<T>::write(*value) : "";
@@ -147,12 +150,13 @@ struct Codec<Enum> {
     for (const auto& [word, value] : Names<Enum>::list) words.push_back(word);
     return words;
   }
-  static Refused read(std::string_view text, Enum& value, const Range&) {
+  static std::optional<ValueError> read(std::string_view text, Enum& value, const Range&) {
     for (const auto& [word, named] : Names<Enum>::list)
-      if (text == word) return value = named, Refused{};
-    const std::string near = nearest(text, all_words());
-    return Refusal{"is not one of " + joined(all_words()),
-                   near.empty() ? "choose one of them" : "did you mean " + quote(near) + "?"};
+      if (text == word) return value = named, std::optional<ValueError>{};
+    const std::string nearest_word = nearest(text, all_words());
+    return ValueError{
+        "is not one of " + joined(all_words()),
+        nearest_word.empty() ? "choose one of them" : "did you mean " + quote(nearest_word) + "?"};
   }
   static std::string write(Enum value) {
     for (const auto& [word, named] : Names<Enum>::list)

@@ -18,15 +18,14 @@ std::size_t distance(std::string_view name, std::string_view candidate) {
   const bool unit_forgotten = candidate.starts_with(std::string(name) + "_");
   const bool group_forgotten = candidate.ends_with("_" + std::string(name));
   const bool other_unit = name.find('_') != name.npos && stem(name) == stem(candidate);
-  const std::size_t letters = edit_distance(name, candidate);
-  return unit_forgotten || group_forgotten || other_unit ? std::min<std::size_t>(letters, 2)
-                                                         : letters;
+  const std::size_t edits = edit_distance(name, candidate);
+  return unit_forgotten || group_forgotten || other_unit ? std::min<std::size_t>(edits, 2) : edits;
 }
 
 }  // namespace
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
-  // D(i,j) = min(D(i−1,j) + 1, D(i,j−1) + 1, D(i−1,j−1) + [aᵢ ≠ bⱼ]), one row kept
+  // D(i,j) = min(D(i−1,j) + 1, D(i,j−1) + 1, D(i−1,j−1) + [aᵢ ≠ bⱼ]), only one row is stored
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), 0u);
   for (std::size_t i = 1; i <= a.size(); ++i) {
@@ -42,27 +41,28 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string nearest(std::string_view name, const std::vector<std::string>& known) {
-  std::string best;
-  std::size_t best_distance = std::max<std::size_t>(2, name.size() / 3) + 1;
+  std::string nearest_name;
+  std::size_t smallest_distance = std::max<std::size_t>(2, name.size() / 3) + 1;
   for (const std::string& candidate : known) {
-    const std::size_t d = distance(name, candidate);
-    const bool closer =
-        d < best_distance || (d == best_distance && !best.empty() &&
-                              edit_distance(name, candidate) < edit_distance(name, best));
-    if (closer && d < candidate.size()) best = candidate, best_distance = d;
+    const std::size_t candidate_distance = distance(name, candidate);
+    const bool is_nearer = candidate_distance < smallest_distance ||
+                           (candidate_distance == smallest_distance && !nearest_name.empty() &&
+                            edit_distance(name, candidate) < edit_distance(name, nearest_name));
+    if (is_nearer && candidate_distance < candidate.size())
+      nearest_name = candidate, smallest_distance = candidate_distance;
   }
-  return best;
+  return nearest_name;
 }
 
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& known) {
-  if (const std::string near = nearest(name, known); !near.empty())
-    return "did you mean " + quote(near) + "?";
+  if (const std::string suggestion = nearest(name, known); !suggestion.empty())
+    return "did you mean " + quote(suggestion) + "?";
   return known.empty() ? "remove it" : "valid names: " + joined(known);
 }
 
 std::string quote(std::string_view text) {
-  constexpr std::size_t longest = 120;  // chosen: fits a message
-  const std::size_t end = std::min({text.find('\n'), text.size(), longest});
+  constexpr std::size_t max_quoted_bytes = 120;  // chosen: fits a message
+  const std::size_t end = std::min({text.find('\n'), text.size(), max_quoted_bytes});
   return "\"" + std::string(text.substr(0, end)) + (end < text.size() ? "…\"" : "\"");
 }
 

@@ -11,10 +11,10 @@
 
 namespace xml {
 
-/// An attribute as it is written: name and unescaped text.
+/// An attribute to be written: name and unescaped text.
 using WrittenAttribute = std::pair<std::string, std::string>;
 
-/// Text with the characters replaced that have a meaning in XML and HTML.
+/// The text with the special characters of XML and HTML replaced by entities.
 std::string escaped(const std::string& text);
 
 /// The XML declaration followed by an element's text.
@@ -36,15 +36,15 @@ class Writer : public CurrentNamesOnly {
 
   template <class T>
   void operator()(const char* name, const T& value, const Field& = {}) {
-    if (!present(value)) return;
-    WrittenAttribute written{name, Codec<T>::write(value)};
+    if (!has_value(value)) return;
+    WrittenAttribute attribute{name, Codec<T>::write(value)};
     const auto end = defaults_.end();
-    if (std::find(defaults_.begin(), end, written) == end)
-      attributes_.push_back(std::move(written));
+    if (std::find(defaults_.begin(), end, attribute) == end)
+      attributes_.push_back(std::move(attribute));
   }
   template <class T>
   void required(const char* name, const T& value, const Field& = {}) {
-    if (present(value)) attributes_.emplace_back(name, Codec<T>::write(value));
+    if (has_value(value)) attributes_.emplace_back(name, Codec<T>::write(value));
   }
   template <class T>
   void child(T& value) {
@@ -67,7 +67,8 @@ class Writer : public CurrentNamesOnly {
     for (const Attribute& a : values) attributes_.emplace_back(a.name, a.value);
   }
 
-  /// `value` as the element `<name>`; it is not changed (`visit` is not const).
+  /// `value` as the element `<name>`. Does not change `value`; it is not const because `visit` is
+  /// not.
   template <class T>
   static std::string text_of(T& value, const std::string& name, std::size_t depth) {
     Writer writer(depth, attributes_of_default<T>());
@@ -77,15 +78,15 @@ class Writer : public CurrentNamesOnly {
 
  private:
   template <class T>
-  static bool present(const T& value) {
+  static bool has_value(const T& value) {
     if constexpr (is_optional<T>) return value.has_value();
     else return true;
   }
   template <class T>
   static std::vector<WrittenAttribute> attributes_of_default() {
-    T fresh{};
+    T item{};
     Writer writer;
-    fresh.visit(writer);
+    item.visit(writer);
     return writer.attributes_;
   }
 

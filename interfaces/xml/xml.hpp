@@ -9,8 +9,8 @@
 /// README.md.
 namespace xml {
 
-/// Fills `value` from a file whose root element is `<root_name>`; attributes absent from the file keep
-/// their defaults. Throws Errors with all errors of the file.
+/// Fills `value` from a file with the root element `<root_name>`. Attributes that the file lacks
+/// keep their defaults. Throws Errors with all errors of the file.
 template <class T>
 void read_into(T& value, const Element& root, const std::string& root_name) {
   if constexpr (requires { T::former_element; }) {
@@ -45,8 +45,8 @@ T parse(std::string_view text, const std::string& label) {
   return value;
 }
 
-/// The struct as the text of a file; reads back bit-equal. Omits optional attributes that equal their
-/// default. Needs a copyable struct, because `visit` is not const.
+/// The struct as the text of a file, which reads back bit-equal. Omits optional attributes that
+/// equal their default. The struct must be copyable, because `visit` is not const.
 template <class T>
 std::string write(const T& value, const std::string& root_name) {
   T copy = value;
@@ -57,7 +57,7 @@ std::string write(const T& value) {
   return write(value, T::element);
 }
 
-/// The XSD 1.0 of a file whose root element is a T.
+/// The XSD 1.0 of files with T as root element.
 template <class T>
 std::string schema(const std::string& root_name) {
   return schema_document(root_name, Schema::type_of<T>());
@@ -67,18 +67,18 @@ std::string schema() {
   return schema<T>(T::element);
 }
 
-/// Names, types, ranges and defaults, one parameter per line; for --help.
+/// Name, type, range and default of each parameter, one per line; for --help.
 template <class T>
 std::string describe() {
-  std::vector<Description> all;
-  T fresh{};
-  Describer describer(all);
-  fresh.visit(describer);
-  return to_table(all);
+  std::vector<Description> descriptions;
+  T item{};
+  Describer describer(descriptions);
+  item.visit(describer);
+  return to_table(descriptions);
 }
 
-/// Sets one value by its path (`gain`, `spindle.radius_m`, `flexor.gain`), with the same checks as in
-/// a file. Throws Errors and changes nothing when the path is unknown or the text is refused.
+/// Sets one value by its path (`gain`, `spindle.radius_m`, `flexor.gain`), with the same checks as
+/// in a file. Throws Errors and changes nothing when the path is unknown or the text is rejected.
 template <class T>
 void set(T& params, const std::string& path, const std::string& text) {
   Setter setter(path, text);

@@ -9,9 +9,9 @@
 
 namespace launch {
 
-// Defined by revision.cmake.
-const char* version();   ///< of the project, "0.2.0"
-const char* revision();  ///< of git, "-dirty" with uncommitted changes; or "unknown"
+// Defined in a file that revision.cmake writes.
+const char* version();   ///< version of the project, "0.2.0"
+const char* revision();  ///< git revision, with "-dirty" after uncommitted changes; or "unknown"
 
 namespace {
 
@@ -51,8 +51,8 @@ void group_by_purpose(CLI::App& app) {
     for (const auto* verb : verbs) app.get_subcommand(verb)->group(purpose);
 }
 
-/// Reports an unknown verb with the most similar one; CLI11 reports only that the word is
-/// unexpected.
+/// Returns true for an unknown verb and prints the most similar verb. CLI11 would report only an
+/// unexpected argument.
 bool is_unknown_verb(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return false;
   std::vector<std::string> verbs;

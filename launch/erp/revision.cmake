@@ -1,4 +1,5 @@
-# Writes OUT when the revision has changed.  cmake -DSOURCE=… -DOUT=… -DVERSION=… -P revision.cmake
+# Writes the C++ file OUT with version and git revision, if they have changed.
+#   cmake -DSOURCE=… -DOUT=… -DVERSION=… -P revision.cmake
 execute_process(COMMAND git -C ${SOURCE} describe --always --dirty --abbrev=10
   OUTPUT_VARIABLE revision OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)
 if(failed OR NOT revision)

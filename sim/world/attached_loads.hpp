@@ -12,7 +12,7 @@ namespace sim {
 /// point mass, in the body's frame, that moves with the body from the start (paper, Fig. 7b).
 struct AttachedLoad {
   static constexpr auto element = "attached_load", former_element = "grasp";
-  static constexpr auto meaning =
+  static constexpr auto description =
       "Point mass that is attached to a body; it moves with the body from the start (paper, Fig. "
       "7b).";
   xml::Place place;

@@ -33,7 +33,7 @@ enum class FaultKind {
 /// `<fault kind="tension_open" on="flexor" at_s="2" for_s="0.5"/>` in the sim's config.
 struct InjectedFault {
   static constexpr auto element = "fault", former_element = "mishap";
-  static constexpr auto meaning = "Fault of the simulated robot.";
+  static constexpr auto description = "Fault of the simulated robot.";
   xml::Place place;
   FaultKind kind = FaultKind::tension_open;
   std::string on;

@@ -13,29 +13,32 @@ namespace {
 
 namespace diagnosis = sim::diagnosis;
 
-std::string text_of(const diagnosis::IdentifiedEffect& n) {
-  std::string text = fmt::format("{} on {}", n.type, n.on);
-  for (std::size_t k = 0; k < n.names.size(); ++k)
-    text += fmt::format("  {} = {:.4g} ({:.4g} to {:.4g})", n.names[k], n.values[k],
-                        n.intervals[k].low, n.intervals[k].high);
-  return text + fixed_parameters(n);
+std::string text_of(const diagnosis::IdentifiedEffect& effect) {
+  std::string text = fmt::format("{} on {}", effect.type, effect.on);
+  for (std::size_t k = 0; k < effect.names.size(); ++k)
+    text += fmt::format("  {} = {:.4g} ({:.4g} to {:.4g})", effect.names[k], effect.values[k],
+                        effect.intervals[k].low, effect.intervals[k].high);
+  return text + fixed_parameters(effect);
 }
 
-/// Places with equal shares cannot be distinguished.
+/// Prints the stages with a share of the gap. Stages with equal shares form a group: the sensors do
+/// not distinguish them.
 void print_location(const diagnosis::Diagnosis& d, std::ostream& out) {
   for (std::size_t k = 0; k < d.where.size();) {
     const double share = d.where[k].share;
     std::string names;
-    double sum = 0;
-    for (; k < d.where.size() && d.where[k].share == share; ++k, sum += share)
+    double group_share = 0;
+    for (; k < d.where.size() && d.where[k].share == share; ++k, group_share += share)
       names += fmt::format("{}{} of {}", names.empty() ? "" : ", or ",
                            sim::effects::word(d.where[k].stage), d.where[k].on);
-    if (share > 0) out << fmt::format("location    {}: {} of the gap\n", names, share_text(sum));
+    if (share > 0)
+      out << fmt::format("location    {}: {} of the gap\n", names, share_text(group_share));
     else out << fmt::format("location    {}; it changes no residual\n", names);
   }
 }
 
-/// Prints how many constants the recordings determine, and those that deviate from their nominal values.
+/// Prints how many constants the recordings determine, and the constants that deviate from their
+/// nominal values.
 void print_constants(const diagnosis::Diagnosis& d, std::ostream& out) {
   if (d.constants.empty()) return;
   std::size_t determined = 0;
@@ -49,7 +52,7 @@ void print_constants(const diagnosis::Diagnosis& d, std::ostream& out) {
                          c.name, c.value, c.interval.low, c.interval.high, c.nominal);
 }
 
-/// Whether constants explain the gap, without an effect and each within its tolerance.
+/// Whether constants explain the gap, each within its tolerance, without any effect.
 bool explained_within_tolerance(const diagnosis::Diagnosis& d) {
   return d.verdict == diagnosis::Verdict::supported && d.answer.empty() && d.as_built;
 }
@@ -61,23 +64,26 @@ void print_causes(const diagnosis::Diagnosis& d, std::ostream& out) {
                                                                           : "partial     ";
   if (explained_within_tolerance(d))
     out << "cause       several constants together, each within its tolerance\n";
-  for (const auto& n : d.answer) {
-    out << label << text_of(n) << "\n";
-    constexpr std::size_t shown = 4;
-    for (std::size_t k = 0; k < std::min(shown, n.alternatives.size()); ++k)
-      out << "equivalent  " << text_of(n.alternatives[k]) << "\n";
-    if (n.alternatives.size() > shown)
+  for (const auto& effect : d.answer) {
+    out << label << text_of(effect) << "\n";
+    constexpr std::size_t max_alternatives = 4;
+    for (std::size_t k = 0; k < std::min(max_alternatives, effect.alternatives.size()); ++k)
+      out << "equivalent  " << text_of(effect.alternatives[k]) << "\n";
+    if (effect.alternatives.size() > max_alternatives)
       out << fmt::format("equivalent  {} more, listed in diagnosis.json\n",
-                         n.alternatives.size() - shown);
+                         effect.alternatives.size() - max_alternatives);
   }
-  for (const auto& u : d.unexplained) {
+  for (const auto& stage_gap : d.unexplained) {
     out << fmt::format("unexplained {} of {}: residual {:.3g} times its noise",
-                       sim::effects::word(u.stage), u.on, std::sqrt(1 + u.excess));
-    if (u.shape && u.shape->constant > 0.1)
-      out << fmt::format("; {:.0f} % of it is constant", 100 * u.shape->constant);
-    if (u.shape && u.shape->explained - u.shape->constant > 0.1)
+                       sim::effects::word(stage_gap.stage), stage_gap.on,
+                       std::sqrt(1 + stage_gap.excess));
+    constexpr double min_reported = 0.1;  // fraction of the residual; chosen
+    if (stage_gap.shape && stage_gap.shape->constant > min_reported)
+      out << fmt::format("; {:.0f} % of it is constant", 100 * stage_gap.shape->constant);
+    if (stage_gap.shape && stage_gap.shape->explained - stage_gap.shape->constant > min_reported)
       out << fmt::format("; {:.0f} % of it depends on the {}",
-                         100 * (u.shape->explained - u.shape->constant), u.shape->variable);
+                         100 * (stage_gap.shape->explained - stage_gap.shape->constant),
+                         stage_gap.shape->variable);
     out << "\n";
   }
   print_constants(d, out);
@@ -92,9 +98,9 @@ void print_causes(const diagnosis::Diagnosis& d, std::ostream& out) {
           c.channel, 100 * c.before / c.driven_by, 100 * c.after / c.driven_by);
 }
 
-/// Whether a motion can show the effect. Effects of the bus change no residual.
-bool can_be_excited(const diagnosis::IdentifiedEffect& n) {
-  return sim::effects::about(n.placed.effect).stage != sim::effects::Stage::bus;
+/// Whether a motion can reveal the effect. Effects of the bus change no residual.
+bool can_be_excited(const diagnosis::IdentifiedEffect& effect) {
+  return sim::effects::about(effect.placed.effect).stage != sim::effects::Stage::bus;
 }
 
 }  // namespace
@@ -118,12 +124,13 @@ void print_answer(const diagnosis::Diagnosis& d, const sim::closed_loop::FreeRun
 
 void print_next(const diagnosis::Diagnosis& d, const erp::Robot& robot,
                 const DiagnoseOptions& options, std::ostream& out) {
-  const bool unique =
-      std::ranges::all_of(d.answer, [](const auto& n) { return n.alternatives.empty(); });
-  const bool done = d.verdict == diagnosis::Verdict::no_gap ||
-                    (d.verdict == diagnosis::Verdict::supported && unique);
-  const bool any = std::ranges::any_of(d.ranked, can_be_excited);
-  if (done || !any || !d.fix_first.empty() || !robot.drives.empty()) return;
+  const bool is_unique =
+      std::ranges::all_of(d.answer, [](const auto& effect) { return effect.alternatives.empty(); });
+  const bool is_explained = d.verdict == diagnosis::Verdict::no_gap ||
+                            (d.verdict == diagnosis::Verdict::supported && is_unique);
+  const bool has_excitable_effect = std::ranges::any_of(d.ranked, can_be_excited);
+  if (is_explained || !has_excitable_effect || !d.fix_first.empty() || !robot.drives.empty())
+    return;
   out << fmt::format(
       "next        erp gap plan --robot {} --diagnosis {}/diagnosis.json --out {}/next\n",
       options.robot, options.out, options.out);

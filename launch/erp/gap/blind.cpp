@@ -27,20 +27,22 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-/// Removes the columns of signals that are not recorded and rounds to nine decimals, below every quantization step.
+/// Removes the columns of the signals in `without`, and rounds to nine decimals, which is finer
+/// than every quantization step.
 recording::Table as_recorded(recording::Table table, const std::vector<std::string>& without) {
-  const auto hidden = [&](const recording::Column& column) {
+  const auto is_removed = [&](const recording::Column& column) {
     const auto signal = recording::signal_of(column.name);
-    for (const std::string& what : without) {
-      if (what == "tension" && signal == "tension_N") return true;
-      if (what == "current" && signal == "current_A") return true;
-      if (what == "joint" && (signal == "angle_rad" || signal[0] == 'q')) return true;
+    for (const std::string& kind : without) {
+      if (kind == "tension" && signal == "tension_N") return true;
+      if (kind == "current" && signal == "current_A") return true;
+      if (kind == "joint" && (signal == "angle_rad" || signal[0] == 'q')) return true;
     }
     return false;
   };
-  std::erase_if(table.columns, hidden);
+  std::erase_if(table.columns, is_removed);
+  constexpr double decimals = 1e9;
   for (recording::Column& column : table.columns)
-    for (double& value : column.values) value = std::round(value * 1e9) / 1e9;
+    for (double& value : column.values) value = std::round(value * decimals) / decimals;
   return table;
 }
 
@@ -66,16 +68,16 @@ Json truth_of(const std::string& name, const sim::blind::Case& blind) {
 struct Recorded {
   sim::blind::Case blind;
   std::vector<std::string> csv;
-  int not_finite = 0;  ///< discarded draws whose motion was not finite
+  int not_finite = 0;  ///< draws that were discarded because their motion was not finite
 };
 
-/// Draws a case and records it. Draws again if the motion is not finite.
+/// Draws a case and records it. Repeats the draw if the motion is not finite.
 Recorded record_case(const erp::Robot& robot, sim::blind::Kind kind, std::uint64_t seed,
                      const BlindMakeOptions& options, const sim::blind::Visibility& visibility) {
-  constexpr std::uint64_t next_draw = 1'000'003;  // beyond the seeds of the other cases
-  constexpr int most = 20;                        // chosen
+  constexpr std::uint64_t seed_step = 1'000'003;  // greater than the number of cases; chosen
+  constexpr int max_draws = 20;                   // chosen
   for (int draw = 0;; ++draw) {
-    Recorded recorded{sim::blind::draw_case(robot, kind, seed + next_draw * std::uint64_t(draw),
+    Recorded recorded{sim::blind::draw_case(robot, kind, seed + seed_step * std::uint64_t(draw),
                                             options.only, visibility),
                       {},
                       draw};
@@ -93,22 +95,23 @@ Recorded record_case(const erp::Robot& robot, sim::blind::Kind kind, std::uint64
       }
       return recorded;
     } catch (const sim::blind::NotFinite&) {
-      if (draw == most) throw;
+      if (draw == max_draws) throw;
     }
   }
 }
 
-/// Index of this process and number of processes under Open MPI; else 0 and 1.
+/// Index of this process and number of processes under Open MPI; otherwise 0 and 1.
 std::pair<std::size_t, std::size_t> part_of_work() {
-  const auto number = [](const char* name, std::size_t otherwise) {
+  const auto number = [](const char* name, std::size_t default_value) {
     const char* text = std::getenv(name);
-    return text ? static_cast<std::size_t>(std::strtoul(text, nullptr, 10)) : otherwise;
+    return text ? static_cast<std::size_t>(std::strtoul(text, nullptr, 10)) : default_value;
   };
   return {number("OMPI_COMM_WORLD_RANK", 0),
           std::max<std::size_t>(1, number("OMPI_COMM_WORLD_SIZE", 1))};
 }
 
-/// Throws std::invalid_argument if the robot cannot have cases or files would be overwritten.
+/// Throws std::invalid_argument if no case can be made from the robot, or if files would be
+/// overwritten.
 void check(const BlindMakeOptions& options, const erp::Robot& robot) {
   if (robot.actuators.empty())
     throw std::invalid_argument(
@@ -126,9 +129,9 @@ void check(const BlindMakeOptions& options, const erp::Robot& robot) {
   if (fs::exists(options.truth))
     throw std::invalid_argument("--truth " + options.truth +
                                 ": exists and belongs to other cases; choose another file");
-  const fs::path inside =
+  const fs::path truth_in_out =
       fs::weakly_canonical(options.truth).lexically_relative(fs::weakly_canonical(options.out));
-  if (!inside.empty() && *inside.begin() != "..")
+  if (!truth_in_out.empty() && *truth_in_out.begin() != "..")
     throw std::invalid_argument(
         "--truth " + options.truth +
         ": is in the folder of the cases, which must not contain the truth; choose another file");
@@ -188,33 +191,33 @@ int blind_run(const BlindRunOptions& options, std::ostream& out, std::ostream& r
   const Json manifest = Json::parse(read_text(folder + "/cases.json"));
   const erp::Robot robot = erp::read_robot(folder + "/robot.xml");
   const auto [part, parts] = part_of_work();
-  std::vector<Json> mine;
+  std::vector<Json> own_cases;
   std::size_t n = 0;
-  for (const Json& one : manifest["cases"])
+  for (const Json& entry : manifest["cases"])
     if (n++ % parts == part &&
-        !fs::exists(folder + "/" + one["case"].get<std::string>() + "/diagnosis.json"))
-      mine.push_back(one);
+        !fs::exists(folder + "/" + entry["case"].get<std::string>() + "/diagnosis.json"))
+      own_cases.push_back(entry);
   std::atomic<std::size_t> done = 0;
   std::mutex progress_mutex;
   Progress progress(remarks);
-  sim::in_parallel(mine.size(), options.threads, [&](std::size_t k) {
+  sim::in_parallel(own_cases.size(), options.threads, [&](std::size_t k) {
     std::vector<std::string> files;
-    for (const Json& file : mine[k]["recordings"])
+    for (const Json& file : own_cases[k]["recordings"])
       files.push_back(folder + "/" + file.get<std::string>());
-    sim::diagnosis::DiagnoseOptions how{.threads = 1};
-    how.withhold = mine[k]["withhold"].get<std::vector<std::string>>();
+    sim::diagnosis::DiagnoseOptions diagnose_options{.threads = 1};
+    diagnose_options.withhold = own_cases[k]["withhold"].get<std::vector<std::string>>();
     const auto episodes = read_episodes(robot, files).episodes;
-    auto d = sim::diagnosis::diagnose(robot, episodes, how);
-    const DiagnoseOptions simulate{.threads = 1, .free_run = options.free_run};
-    const auto free_run = free_run_of(d, episodes, robot, simulate, [](double) {});
-    const std::string place = folder + "/" + mine[k]["case"].get<std::string>();
-    write_file(place + "/diagnosis.part", diagnosis_json(d, free_run, robot));
-    fs::rename(place + "/diagnosis.part", place + "/diagnosis.json");
+    auto d = sim::diagnosis::diagnose(robot, episodes, diagnose_options);
+    const DiagnoseOptions free_run_options{.threads = 1, .free_run = options.free_run};
+    const auto free_run = free_run_of(d, episodes, robot, free_run_options, [](double) {});
+    const std::string case_folder = folder + "/" + own_cases[k]["case"].get<std::string>();
+    write_file(case_folder + "/diagnosis.part", diagnosis_json(d, free_run, robot));
+    fs::rename(case_folder + "/diagnosis.part", case_folder + "/diagnosis.json");
     const std::lock_guard lock(progress_mutex);
-    progress.show("diagnoses", double(++done) / double(mine.size()));
+    progress.show("diagnoses", double(++done) / double(own_cases.size()));
   });
-  out << fmt::format("{} {} in {}\n", mine.size(), mine.size() == 1 ? "diagnosis" : "diagnoses",
-                     folder);
+  out << fmt::format("{} {} in {}\n", own_cases.size(),
+                     own_cases.size() == 1 ? "diagnosis" : "diagnoses", folder);
   return 0;
 }
 

@@ -15,25 +15,30 @@ namespace {
 
 namespace estimation = sim::estimation;
 
+constexpr double quantile_97_5 = 1.96;   // of the normal distribution, for 95 % intervals
+constexpr double max_mean_square = 1.5;  // of a stage's residual in units of its noise; chosen
+
 void print_row(const estimation::AsBuilt& built, std::size_t k, std::ostream& out) {
   const estimation::Constant& c = built.uncertain.constants[k];
-  const double x = built.estimate.point.x[k], half = 1.96 * built.estimate.sigma(k);
-  constexpr double limit = 3;  // tolerances, and standard errors; chosen
-  const bool beyond = std::ranges::count(built.beyond, k) > 0 ||
-                      (std::abs(x) > limit && std::abs(x) > limit * built.estimate.sigma(k));
-  const char* remark = beyond ? "beyond its tolerance"
+  const double x = built.estimate.point.x[k],
+               half_interval = quantile_97_5 * built.estimate.sigma(k);
+  constexpr double limit = 3;  // in tolerances and in standard errors; chosen
+  const bool is_beyond = std::ranges::count(built.beyond, k) > 0 ||
+                         (std::abs(x) > limit && std::abs(x) > limit * built.estimate.sigma(k));
+  const char* remark = is_beyond ? "beyond its tolerance"
                        : estimation::determined(built, k) < estimation::well_determined
                            ? "not determined"
                            : "";
   out << fmt::format("{:<16} {:<28} {:>11.5g} {:>11.5g} {:>11.5g} … {:<11.5g} {}\n", c.on, c.name,
-                     c.nominal, c.value(x), c.value(x - half), c.value(x + half), remark);
+                     c.nominal, c.value(x), c.value(x - half_interval), c.value(x + half_interval),
+                     remark);
 }
 
-/// Prints stages whose residual exceeds the noise with all constants estimated.
+/// Prints the stages with a residual above the noise after the estimation of all constants.
 void print_unexplained(const std::vector<std::string>& names, const estimation::AsBuilt& built,
                        std::ostream& out) {
   for (std::size_t s = 0; s < names.size(); ++s)
-    if (built.estimate.mean_square[s] > 1.5)
+    if (built.estimate.mean_square[s] > max_mean_square)
       out << fmt::format(
           "unexplained {}: residual {:.3g} times its noise; no constant explains it; run erp gap "
           "diagnose\n",
@@ -60,9 +65,10 @@ int calibrate(const CalibrateOptions& options, std::ostream& out, std::ostream& 
     if (pool->first()) out << nothing_evaluated;
     return 5;
   }
-  estimation::EstimateOptions how;
-  how.threads = options.threads, how.seed = options.seed, how.pool = pool.get();
-  const estimation::AsBuilt built = estimation::calibrated(robot, read.episodes, how);
+  estimation::EstimateOptions estimate_options;
+  estimate_options.threads = options.threads, estimate_options.seed = options.seed,
+  estimate_options.pool = pool.get();
+  const estimation::AsBuilt built = estimation::calibrated(robot, read.episodes, estimate_options);
   if (!pool->first()) return 0;
   out << fmt::format("{:<16} {:<28} {:>11} {:>11} {:>25}\n", "on", "constant", "robot.xml",
                      "estimate", "95 % interval");

@@ -11,7 +11,7 @@ bool describes(const std::string& file, const erp::Robot& robot) {
   try {
     return erp::write_robot(erp::read_robot(file)) == erp::write_robot(robot);
   } catch (const xml::Errors&) {
-    return false;  // it includes files by paths that are relative to the original model
+    return false;  // it includes files by paths relative to the folder of the original model
   }
 }
 

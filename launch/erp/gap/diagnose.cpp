@@ -20,18 +20,21 @@ namespace {
 namespace diagnosis = sim::diagnosis;
 namespace residuals = sim::residuals;
 
-/// The recordings of all three lists, each once, and the indices of those for training and for validation.
+/// All recordings, each once, and the indices of those for training and for validation.
 struct RecordingSplit {
   std::vector<std::string> files;
   std::vector<std::size_t> train, held_out;
 };
 
-/// Whether two paths name the same file.
+/// Whether two paths refer to the same file.
 bool same_file(const std::string& a, const std::string& b) {
   namespace fs = std::filesystem;
   return a == b || fs::weakly_canonical(a) == fs::weakly_canonical(b);
 }
 
+/// Combines the options --real, --train and --held-out. If only one of --train and --held-out is
+/// given, the other one consists of the remaining recordings. Throws std::invalid_argument for
+/// contradictions.
 RecordingSplit split(const DiagnoseOptions& options) {
   RecordingSplit recordings;
   const auto index = [&](const std::string& file) {
@@ -50,14 +53,15 @@ RecordingSplit split(const DiagnoseOptions& options) {
   }
   for (const std::string& file : options.train) recordings.train.push_back(index(file));
   for (const std::string& file : options.held_out) recordings.held_out.push_back(index(file));
-  const auto rest = [&](std::vector<std::size_t>& into, const std::vector<std::size_t>& others) {
+  const auto add_others = [&](std::vector<std::size_t>& target,
+                              const std::vector<std::size_t>& others) {
     for (std::size_t k = 0; k < recordings.files.size(); ++k)
-      if (!std::ranges::count(others, k)) into.push_back(k);
+      if (!std::ranges::count(others, k)) target.push_back(k);
   };
   if (recordings.train.empty() && !recordings.held_out.empty())
-    rest(recordings.train, recordings.held_out);
+    add_others(recordings.train, recordings.held_out);
   else if (recordings.held_out.empty() && !recordings.train.empty())
-    rest(recordings.held_out, recordings.train);
+    add_others(recordings.held_out, recordings.train);
   if (!options.held_out.empty() && recordings.train.empty())
     throw std::invalid_argument(
         "--held-out contains every recording; leave at least one for training");
@@ -73,21 +77,21 @@ void write_files(const diagnosis::Diagnosis& d, const sim::closed_loop::FreeRun&
   make_folder(options.out);
   write_file(options.out + "/diagnosis.json", diagnosis_json(d, free_run, robot));
   write_file(options.out + "/report.html", diagnosis_report(d, free_run, robot));
-  const std::string corrected = options.out + "/robot.xml";
+  const std::string corrected_file = options.out + "/robot.xml";
   if (d.verdict == diagnosis::Verdict::supported && d.as_built)
-    write_file(corrected, erp::write_robot(found));
+    write_file(corrected_file, erp::write_robot(found));
   else if (d.verdict == diagnosis::Verdict::supported)
-    write_corrected(corrected, options.robot, found,
+    write_corrected(corrected_file, options.robot, found,
                     {found.effects.end() - std::ptrdiff_t(d.answer.size()), found.effects.end()});
-  else std::filesystem::remove(corrected);  // of an earlier diagnosis
+  else std::filesystem::remove(corrected_file);  // may exist from an earlier diagnosis
 }
 
 /// Throws std::invalid_argument if writing robot.xml would overwrite a model.
 void check_out(const DiagnoseOptions& options) {
   namespace fs = std::filesystem;
-  const std::string corrected = options.out + "/robot.xml";
-  if (options.out.empty() || !fs::exists(corrected)) return;
-  if (fs::equivalent(corrected, options.robot))
+  const std::string corrected_file = options.out + "/robot.xml";
+  if (options.out.empty() || !fs::exists(corrected_file)) return;
+  if (fs::equivalent(corrected_file, options.robot))
     throw std::invalid_argument(
         "--out " + options.out +
         ": its robot.xml is the model given by --robot; choose another folder");
@@ -100,13 +104,13 @@ void check_out(const DiagnoseOptions& options) {
 }  // namespace
 
 void check_withheld(const std::vector<std::string>& types) {
-  std::vector<std::string> known;
+  std::vector<std::string> valid_types;
   for (const auto& effect : sim::effects::library())
-    known.emplace_back(sim::effects::about(effect).type);
+    valid_types.emplace_back(sim::effects::about(effect).type);
   for (const std::string& type : types)
     if (!sim::effects::neutral(type))
       throw std::invalid_argument("--withhold " + type +
-                                  ": unknown effect: " + xml::did_you_mean(type, known) +
+                                  ": unknown effect: " + xml::did_you_mean(type, valid_types) +
                                   " erp model effects lists all effects");
 }
 
@@ -124,7 +128,8 @@ int exit_code(diagnosis::Verdict verdict) {
   return 5;
 }
 
-/// Under mpirun the processes share the screening of effects and the derivatives; the first process reports.
+/// Under mpirun the processes share the screening of effects and the derivatives; the first process
+/// reports.
 int diagnose(const DiagnoseOptions& options, std::ostream& out, std::ostream& remarks) {
   const auto pool = sim::make_pool(options.threads);
   const erp::Robot robot = read_chains(options.robot);
@@ -135,19 +140,19 @@ int diagnose(const DiagnoseOptions& options, std::ostream& out, std::ostream& re
   if (pool->first()) print_lines(read.corrections, remarks), print_suspicious(read, remarks);
   if (!options.out.empty()) check_folder(options.out);
   std::optional<Progress> progress(std::in_place, remarks);
-  diagnosis::DiagnoseOptions how{.train = recordings.train,
-                                 .held_out = recordings.held_out,
-                                 .withhold = options.withhold,
-                                 .threads = options.threads,
-                                 .pool = pool.get(),
-                                 .seed = options.seed};
-  how.progress = [&](const std::string& what, double share) {
-    if (pool->first()) progress->show(what, share);
+  diagnosis::DiagnoseOptions diagnose_options{.train = recordings.train,
+                                              .held_out = recordings.held_out,
+                                              .withhold = options.withhold,
+                                              .threads = options.threads,
+                                              .pool = pool.get(),
+                                              .seed = options.seed};
+  diagnose_options.progress = [&](const std::string& step, double fraction) {
+    if (pool->first()) progress->show(step, fraction);
   };
-  diagnosis::Diagnosis d = diagnosis::diagnose(robot, read.episodes, how);
+  diagnosis::Diagnosis d = diagnosis::diagnose(robot, read.episodes, diagnose_options);
   if (!pool->first()) return 0;
   const auto free_run = free_run_of(d, read.episodes, robot, options,
-                                    [&](double share) { progress->show("free run", share); });
+                                    [&](double fraction) { progress->show("free run", fraction); });
   erp::Robot found = d.as_built ? *d.as_built : erp::read_robot(options.robot);
   for (const auto& n : d.as_built ? std::vector<diagnosis::IdentifiedEffect>{} : d.answer)
     found.effects.push_back(sim::effects::written(n.placed));

@@ -15,7 +15,7 @@ std::string diagnosis_json(const sim::diagnosis::Diagnosis& diagnosis,
 /// Text of report.html, which needs no other file.
 std::string diagnosis_report(const sim::diagnosis::Diagnosis& diagnosis,
                              const sim::closed_loop::FreeRun& free_run, const erp::Robot& robot);
-/// Writes robot.xml: the text of the file `model`, including comments, with the effects `added` inserted at its
+/// Writes robot.xml: the text of the file `model` with its comments, and the effects `added` at its
 /// end. If the model includes other files, writes `corrected` as one file without comments.
 void write_corrected(const std::string& file, const std::string& model, const erp::Robot& corrected,
                      std::vector<erp::Effect> added);

@@ -4,29 +4,30 @@
 
 #include "interfaces/xml/renamed.hpp"
 
-/// Keys of diagnosis.json files that earlier versions wrote.
+/// Keys in diagnosis.json files of earlier versions.
 namespace launch::gap {
 
 struct FormerKey {
-  const char *former, *now;
+  const char *former, *current;
 };
 inline constexpr std::array former_keys{
     FormerKey{"mend_first", "fix_first"}, FormerKey{"judged_from_s", "held_out_from_s"},
     FormerKey{"confusable", "confounders"}, FormerKey{"judged", "evaluated"}};
 
-/// Gives the members of one JSON object their current keys; warns once per file and former key.
+/// Renames former keys of one JSON object to their current keys; warns once per file and former
+/// key.
 template <class Json>
 void rename_former_keys(Json& object, const std::string& file) {
-  for (const auto& [former, now] : former_keys) {
-    if (!object.contains(former) || object.contains(now)) continue;
-    xml::warn_renamed({file, 0, 0}, former, now);
+  for (const auto& [former, current] : former_keys) {
+    if (!object.contains(former) || object.contains(current)) continue;
+    xml::warn_renamed({file, 0, 0}, former, current);
     Json value = std::move(object[former]);
     object.erase(former);
-    object[now] = std::move(value);
+    object[current] = std::move(value);
   }
 }
 
-/// A diagnosis.json with current keys. Throws Json::exception.
+/// Parses the text of a diagnosis.json and renames former keys. Throws Json::exception.
 template <class Json>
 Json parse_diagnosis(const std::string& text, const std::string& file) {
   Json diagnosis = Json::parse(text);

@@ -12,7 +12,8 @@ namespace residuals = sim::residuals;
 namespace closed_loop = sim::closed_loop;
 using diagnosis::IdentifiedEffect;
 
-/// The held-out recordings; of a recording that is split, the validation part.
+/// The held-out recordings. A recording for both training and validation is reduced to its
+/// validation part.
 std::vector<residuals::Episode> held_out_of(const diagnosis::Diagnosis& d,
                                             const std::vector<residuals::Episode>& episodes) {
   std::vector<residuals::Episode> held_out;
@@ -25,8 +26,8 @@ std::vector<residuals::Episode> held_out_of(const diagnosis::Diagnosis& d,
   return held_out;
 }
 
-/// Exchanges the answer with its equivalent effect `k`.
-void put_first(IdentifiedEffect& answer, std::size_t k) {
+/// Exchanges the answer and its equivalent effect `k`.
+void swap_with_alternative(IdentifiedEffect& answer, std::size_t k) {
   IdentifiedEffect other = answer.alternatives[k];
   other.supported = answer.supported, other.alternatives = answer.alternatives;
   other.alternatives.erase(other.alternatives.begin() + std::ptrdiff_t(k));
@@ -46,13 +47,13 @@ class FreeRuns {
         held_out_(held_out_of(d, episodes)) {}
 
   closed_loop::FreeRun of(const std::vector<IdentifiedEffect>& answer) const {
-    erp::Robot found = robot_;
-    for (const IdentifiedEffect& n : answer)
-      found.effects.push_back(sim::effects::written(n.placed));
-    return of(found);
+    erp::Robot corrected = robot_;
+    for (const IdentifiedEffect& effect : answer)
+      corrected.effects.push_back(sim::effects::written(effect.placed));
+    return of(corrected);
   }
-  closed_loop::FreeRun of(const erp::Robot& found) const {
-    return closed_loop::free_run(robot_, found, held_out_, options_);
+  closed_loop::FreeRun of(const erp::Robot& corrected) const {
+    return closed_loop::free_run(robot_, corrected, held_out_, options_);
   }
 
  private:
@@ -67,31 +68,33 @@ closed_loop::FreeRun free_run_of(diagnosis::Diagnosis& d,
                                  const std::vector<residuals::Episode>& episodes,
                                  const erp::Robot& robot, const DiagnoseOptions& options,
                                  const std::function<void(double)>& progress) {
-  constexpr double gap_limit = 2;      // times the noise; chosen
-  constexpr double improvement = 0.5;  // of the error; chosen
-  constexpr std::size_t most = 4;      // equivalent effects that are simulated; chosen
-  const bool nothing = d.answer.empty() && !d.as_built && d.verdict != diagnosis::Verdict::no_gap;
-  if (nothing || !options.free_run || !robot.drives.empty()) return {};
+  constexpr double gap_limit = 2;              // times the noise; chosen
+  constexpr double improvement = 0.5;          // of the error; chosen
+  constexpr std::size_t max_alternatives = 4;  // equivalent effects that are simulated; chosen
+  const bool has_no_answer =
+      d.answer.empty() && !d.as_built && d.verdict != diagnosis::Verdict::no_gap;
+  if (has_no_answer || !options.free_run || !robot.drives.empty()) return {};
   const FreeRuns runs(d, episodes, robot, options, progress);
   if (d.as_built) return runs.of(*d.as_built);
-  closed_loop::FreeRun best = runs.of(d.answer);
+  closed_loop::FreeRun best_run = runs.of(d.answer);
   if (d.verdict != diagnosis::Verdict::supported || d.answer.size() != 1 ||
-      !(best.all.after > gap_limit * best.all.floor))
-    return best;
+      !(best_run.all.after > gap_limit * best_run.all.floor))
+    return best_run;
   IdentifiedEffect& answer = d.answer[0];
-  std::size_t nearest = answer.alternatives.size();
-  const double first = best.all.after;
-  for (std::size_t k = 0; k < std::min(most, answer.alternatives.size()); ++k)
-    if (auto run = runs.of({answer.alternatives[k]}); run.all.after < improvement * best.all.after)
-      best = std::move(run), nearest = k;
-  if (nearest == answer.alternatives.size()) return best;
+  std::size_t best_alternative = answer.alternatives.size();
+  const double first_error = best_run.all.after;
+  for (std::size_t k = 0; k < std::min(max_alternatives, answer.alternatives.size()); ++k)
+    if (auto run = runs.of({answer.alternatives[k]});
+        run.all.after < improvement * best_run.all.after)
+      best_run = std::move(run), best_alternative = k;
+  if (best_alternative == answer.alternatives.size()) return best_run;
   d.warnings.push_back(fmt::format(
       "the residuals do not distinguish {} on {} from {} on {}; the free-run error is {:.3g} times "
       "the noise with the former and {:.3g} times with the latter, which is listed first",
-      answer.type, answer.on, answer.alternatives[nearest].type, answer.alternatives[nearest].on,
-      first, best.all.after));
-  put_first(answer, nearest);
-  return best;
+      answer.type, answer.on, answer.alternatives[best_alternative].type,
+      answer.alternatives[best_alternative].on, first_error, best_run.all.after));
+  swap_with_alternative(answer, best_alternative);
+  return best_run;
 }
 
 }  // namespace launch::gap

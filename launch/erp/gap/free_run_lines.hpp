@@ -9,10 +9,11 @@
 /// Validates a diagnosis by free-run simulation.
 namespace launch::gap {
 
-/// Simulates the robot with the identified effects (without a gap: the model as it is) on the references of the
-/// held-out recordings. Of effects that the residuals cannot distinguish, puts the one with the smallest free-run
-/// error first, if it halves that error, and adds a warning. Returns an empty result for drives, which the
-/// simulator does not support, and if there is a gap but no identified effect.
+/// Simulates the robot with the identified effects on the references of the held-out recordings.
+/// Without a gap, simulates the unchanged model. If an equivalent effect at least halves the
+/// free-run error, puts the one with the smallest error first and adds a warning. Returns an empty
+/// result for robots with drives, which the simulator does not support, and if there is a gap but
+/// no identified effect.
 sim::closed_loop::FreeRun free_run_of(sim::diagnosis::Diagnosis& diagnosis,
                                       const std::vector<sim::residuals::Episode>& episodes,
                                       const erp::Robot& robot, const DiagnoseOptions& options,

@@ -30,7 +30,8 @@ std::vector<residuals::Episode> simulated(const erp::Robot& robot, double second
   return episodes;
 }
 
-void leave_out(const std::vector<std::string>& signals, std::vector<residuals::Episode>& episodes) {
+void remove_signals(const std::vector<std::string>& signals,
+                    std::vector<residuals::Episode>& episodes) {
   for (const std::string& signal : signals)
     for (residuals::Episode& e : episodes) {
       for (residuals::ActuatorSignals& a : e.actuators) {
@@ -76,7 +77,7 @@ int list_indistinguishable(const IndistinguishableOptions& options, std::ostream
   const Reading read = read_episodes(robot, options.recordings);
   print_lines(read.corrections, remarks), print_suspicious(read, remarks);
   auto episodes = options.recordings.empty() ? simulated(robot, options.seconds) : read.episodes;
-  leave_out(options.without, episodes);
+  remove_signals(options.without, episodes);
   if (!can_evaluate(episodes)) {
     out << nothing_evaluated;
     return 5;
@@ -84,11 +85,11 @@ int list_indistinguishable(const IndistinguishableOptions& options, std::ostream
   const diagnosis::Evaluator evaluator(robot, std::move(episodes));
   std::vector<std::vector<std::string>> rows{
       {"hidden effect", "size", "replaced by", "visible, sigma", "remaining, sigma", "similarity"}};
-  for (const auto& one : search(evaluator, options))
+  for (const auto& pair : search(evaluator, options))
     rows.push_back(
-        {name_of(one.hidden), size_of(one.hidden), names_of(one.others),
-         fmt::format("{:.1f}", one.magnitude), fmt::format("{:.2g}", one.remaining),
-         fmt::format("{:.4f}", std::sqrt(1 - std::pow(one.remaining / one.magnitude, 2)))});
+        {name_of(pair.hidden), size_of(pair.hidden), names_of(pair.others),
+         fmt::format("{:.1f}", pair.magnitude), fmt::format("{:.2g}", pair.remaining),
+         fmt::format("{:.4f}", std::sqrt(1 - std::pow(pair.remaining / pair.magnitude, 2)))});
   for (const std::string& line : align(rows, {false, false, false, true, true, true}))
     out << line << "\n";
   if (rows.size() == 1) out << "the sensors distinguish every visible effect from every other\n";

@@ -10,7 +10,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using namespace sim::diagnosis;
 
-/// Rounds to five significant digits; values that are not finite become null.
+/// Rounds to five significant digits. The JSON library writes values that are not finite as null.
 double rounded(double x) {
   if (x == 0 || !std::isfinite(x)) return x;
   const double scale = std::pow(10, 5 - std::ceil(std::log10(std::abs(x))));
@@ -125,10 +125,11 @@ Json confounders_of(const Diagnosis& d) {
   return list;
 }
 
-/// Start of the validation part of recordings that are split, by name.
-Json shared(const sim::diagnosis::Diagnosis& d) {
+/// For each recording that serves training and validation: time at which its validation part
+/// starts.
+Json validation_starts(const sim::diagnosis::Diagnosis& d) {
   Json all = Json::object();
-  for (const auto& one : d.shared) all[one.recording] = one.judged_from_s;
+  for (const auto& entry : d.shared) all[entry.recording] = entry.judged_from_s;
   return all;
 }
 
@@ -145,15 +146,15 @@ std::string diagnosis_json(const Diagnosis& d, const sim::closed_loop::FreeRun& 
   }
   Json unexplained = Json::array();
   for (const Unexplained& u : d.unexplained) {
-    Json one{{"stage", sim::effects::word(u.stage)}, {"on", u.on}, {"excess", rounded(u.excess)}};
+    Json entry{{"stage", sim::effects::word(u.stage)}, {"on", u.on}, {"excess", rounded(u.excess)}};
     if (u.shape) {
-      one["depends_on"] = u.shape->variable, one["unit"] = u.shape->unit;
-      one["explained"] = rounded(u.shape->explained);
-      one["constant"] = rounded(u.shape->constant);
-      one["map"] = {
+      entry["depends_on"] = u.shape->variable, entry["unit"] = u.shape->unit;
+      entry["explained"] = rounded(u.shape->explained);
+      entry["constant"] = rounded(u.shape->constant);
+      entry["map"] = {
           {"at", u.shape->middle}, {"mean", u.shape->mean}, {"deviation", u.shape->deviation}};
     }
-    unexplained.push_back(one);
+    unexplained.push_back(entry);
   }
   const Json all{{"format", "erp gap diagnosis 2"},
                  {"robot", robot.name},
@@ -168,7 +169,7 @@ std::string diagnosis_json(const Diagnosis& d, const sim::closed_loop::FreeRun& 
                  {"recordings", d.recordings},
                  {"train", d.train},
                  {"held_out", d.held_out},
-                 {"held_out_from_s", shared(d)},
+                 {"held_out_from_s", validation_starts(d)},
                  {"fix_first", d.fix_first},
                  {"warnings", d.warnings}};
   return all.dump(1) + "\n";

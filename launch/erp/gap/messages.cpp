@@ -12,16 +12,16 @@ namespace {
 
 using sim::diagnosis::IdentifiedEffect;
 
-// Free-run error in units of the noise; chosen.
-constexpr double no_gap_limit = 1.5;   // without a gap in the residuals: above it, a warning
-constexpr double gap_limit = 2;        // above it, a gap
-constexpr double remaining_limit = 3;  // after closing the gap: above it, a warning
+// Limits of the free-run error, in units of the noise; chosen.
+constexpr double no_gap_limit = 1.5;   // warn above it if the residuals have no gap
+constexpr double gap_limit = 2;        // above it, the free run has a gap
+constexpr double remaining_limit = 3;  // warn above it if the identified effects close the gap
 
-/// Warning if a stage was at its noise floor and the answer moves it off the floor.
+/// Warning if the answer raises the residual of a stage above its noise floor.
 std::string opened_stage_warning(const sim::diagnosis::Diagnosis& d) {
   for (const auto& u : d.unexplained) {
-    const auto before = sim::diagnosis::find_stage(d.stages, u.stage, u.on);
-    if (before != d.stages.end() && before->judged && !before->open)
+    const auto stage = sim::diagnosis::find_stage(d.stages, u.stage, u.on);
+    if (stage != d.stages.end() && stage->judged && !stage->open)
       return fmt::format(
           "the answer opens a gap at the {} of {}, whose residual was within its noise: the answer "
           "may not be the cause; record other motions",
@@ -46,7 +46,8 @@ std::string delayed_column_warning(const IdentifiedEffect& n) {
   return "";
 }
 
-/// Relative deviations of the motors' torque constants, from the answer or else from the estimated constants.
+/// Relative deviations of the motors' torque constants: from the answer, otherwise from the
+/// estimated constants.
 std::vector<double> torque_constant_deviations(const sim::diagnosis::Diagnosis& d) {
   std::vector<double> deviations;
   for (const IdentifiedEffect& n : d.answer)
@@ -57,17 +58,19 @@ std::vector<double> torque_constant_deviations(const sim::diagnosis::Diagnosis& 
   return deviations;
 }
 
-/// Warning if a delayed column, a scaled time column or scaled voltages cause the same residuals as the answer.
+/// Warning if a delayed column, a scaled time column or scaled voltages cause the same residuals as
+/// the answer.
 std::string column_warning(const sim::diagnosis::Diagnosis& d, const erp::Robot& robot) {
   for (const IdentifiedEffect& n : d.answer)
     if (const std::string warning = delayed_column_warning(n); !warning.empty()) return warning;
-  // Of the largest deviation; above it, the motors deviate by different shares. Chosen.
-  constexpr double spread = 0.2;
+  // Relative to the largest deviation. Above it, the motors do not deviate by the same factor.
+  // Chosen.
+  constexpr double max_spread = 0.2;
   const std::vector<double> deviations = torque_constant_deviations(d);
   if (deviations.size() < 2 || deviations.size() < robot.actuators.size()) return "";
   const auto [low, high] = std::ranges::minmax(deviations);
   const double largest = std::max(std::abs(low), std::abs(high));
-  if (high - low > spread * largest) return "";
+  if (high - low > max_spread * largest) return "";
   return fmt::format(
       "every motor deviates by the same share: time_s running {:.2g} % too {}, or voltages "
       "recorded that much too {}, cause the same residuals; check both",
@@ -105,10 +108,10 @@ std::string fixed_parameters(const IdentifiedEffect& n) {
 }
 
 bool deviates(const sim::diagnosis::ConstantEstimate& c) {
-  constexpr double least = 0.5;  // tolerances; smallest reported deviation; chosen
+  constexpr double min_deviation = 0.5;  // tolerances; smallest reported deviation; chosen
   return c.determined > sim::estimation::well_determined &&
          (c.interval.low > c.nominal || c.interval.high < c.nominal) &&
-         std::abs(c.value - c.nominal) > least * c.tolerance;
+         std::abs(c.value - c.nominal) > min_deviation * c.tolerance;
 }
 
 std::string share_text(double share) {
@@ -118,12 +121,12 @@ std::string share_text(double share) {
 std::string zero_offset_warning(const std::vector<sim::diagnosis::IdentifiedEffect>& answer,
                                 const erp::Robot& robot) {
   auto offset = *sim::effects::neutral("sensor_shaft_offset");
-  const double widest_rad = sim::effects::parameters(offset)[0].bounds.high;
+  const double max_offset_rad = sim::effects::parameters(offset)[0].bounds.high;
   for (const auto& n : answer) {
     if (n.type != "tendon_length_offset") continue;
     const auto actuator = std::ranges::find(robot.actuators, n.on, &erp::Actuator::name);
     const double zero_rad = -n.values[0] / actuator->spindle.radius_m;
-    if (std::abs(zero_rad) > widest_rad)
+    if (std::abs(zero_rad) > max_offset_rad)
       return fmt::format(
           "{}.shaft_rad: a zero that is {:.3g} rad off causes the same residuals as this "
           "tendon_length_offset; if the encoder was not zeroed at the robot's initial pose, add "
@@ -134,7 +137,7 @@ std::string zero_offset_warning(const std::vector<sim::diagnosis::IdentifiedEffe
 }
 
 std::string free_run_warning(const sim::diagnosis::Diagnosis& d, const sim::diagnosis::Closed& c) {
-  constexpr double enough = 0.5;  // gap closure; chosen
+  constexpr double min_closure = 0.5;  // gap closure; chosen
   if (d.verdict == sim::diagnosis::Verdict::no_gap)
     return c.before <= no_gap_limit * c.floor
                ? ""
@@ -143,12 +146,12 @@ std::string free_run_warning(const sim::diagnosis::Diagnosis& d, const sim::diag
                      "small model error accumulates that these motions hardly excite; record "
                      "stronger and faster motions",
                      c.before);
-  if (c.closed >= enough && c.after > remaining_limit * c.floor)
+  if (c.closed >= min_closure && c.after > remaining_limit * c.floor)
     return fmt::format(
         "with the identified effects the free-run error is still {:.3g} times the noise: a small "
         "model error remains that these motions hardly excite; record other motions",
         c.after);
-  if (std::max(c.before, c.after) <= gap_limit * c.floor || c.closed >= enough) return "";
+  if (std::max(c.before, c.after) <= gap_limit * c.floor || c.closed >= min_closure) return "";
   return fmt::format(
       "the free-run error is {:.3g} times the noise, with the identified effects {:.3g} times: "
       "these effects may not be the cause; record other motions",
@@ -158,14 +161,14 @@ std::string free_run_warning(const sim::diagnosis::Diagnosis& d, const sim::diag
 std::vector<std::string> answer_warnings(const sim::diagnosis::Diagnosis& d,
                                          const sim::diagnosis::Closed& free_run,
                                          const erp::Robot& robot) {
-  std::vector<std::string> all{free_run_warning(d, free_run)};
+  std::vector<std::string> warnings{free_run_warning(d, free_run)};
   if (d.verdict == sim::diagnosis::Verdict::supported)
     for (std::string& warning :
          std::vector{opened_stage_warning(d), zero_offset_warning(d.answer, robot),
                      column_warning(d, robot)})
-      all.push_back(std::move(warning));
-  std::erase(all, "");
-  return all;
+      warnings.push_back(std::move(warning));
+  std::erase(warnings, "");
+  return warnings;
 }
 
 }  // namespace launch::gap

@@ -23,9 +23,10 @@ using Json = nlohmann::json;
 using sim::effects::name_of;
 using sim::effects::Placed;
 
-constexpr std::size_t most_suspects = 4;
-// In standard deviations; below it, an excitation does not distinguish two suspects. Chosen.
-constexpr double least_sigma = 3;
+constexpr std::size_t max_suspects = 4;
+// Smallest difference, in standard deviations, with which an excitation distinguishes two suspects.
+// Chosen.
+constexpr double min_sigma = 3;
 
 Placed placed_of(const Json& effect, const std::string& file) {
   const auto type = effect.at("type").get<std::string>();
@@ -40,44 +41,45 @@ Placed placed_of(const Json& effect, const std::string& file) {
   return placed;
 }
 
-bool same(const Json& a, const Json& b) {
+bool is_same(const Json& a, const Json& b) {
   return a.at("type") == b.at("type") && a.at("on") == b.at("on");
 }
 
-/// The effects to be distinguished, and the known effects of the robot. Both lists exclude effects of the bus, which
-/// change no residual.
+/// The effects to be distinguished (suspects), and the other identified effects of the robot. Both
+/// lists exclude effects of the bus, which change no residual.
 struct Problem {
   std::string robot;  ///< name of the diagnosed robot
-  std::vector<Placed> suspects, known;
+  std::vector<Placed> suspects, identified;
   std::size_t more_sets = 0;  ///< further sets of equivalent effects
   bool fix_first = false;     ///< the diagnosed recordings have faults
 };
 
-/// Takes the first set of equivalent effects as suspects; without one the answer; without an answer the best
-/// candidates.
+/// Takes the first set of equivalent effects as suspects. Without such a set, takes the answer;
+/// without an answer, the highest-ranked candidates.
 Problem problem_of(const Json& d, const std::string& file) {
   const auto on_bus = [](const Json& effect) {
     return effect.at("type").get<std::string>().starts_with("bus_");
   };
   std::vector<Json> set;
   std::set<int> sets;
-  for (const Json& one : d.at("confounders")) {
-    if (on_bus(one)) continue;
-    sets.insert(one.value("set", 0));
-    if (sets.size() == 1) set.push_back(one);
+  for (const Json& entry : d.at("confounders")) {
+    if (on_bus(entry)) continue;
+    sets.insert(entry.value("set", 0));
+    if (sets.size() == 1) set.push_back(entry);
   }
-  const bool split = !set.empty(), answered = d.at("verdict") == "supported";
+  const bool split = !set.empty(), is_supported = d.at("verdict") == "supported";
   Problem problem{
       d.at("robot"), {}, {}, sets.size() - split, !d.value("fix_first", Json::array()).empty()};
   for (const Json& effect : d.at("effects")) {
     if (on_bus(effect)) continue;
     const bool supported = effect.at("supported").get<bool>();
-    if (!split && (!answered || (supported && set.empty()))) set.push_back(effect);
-    else if (supported && std::ranges::none_of(set, [&](const Json& s) { return same(s, effect); }))
-      problem.known.push_back(placed_of(effect, file));
+    if (!split && (!is_supported || (supported && set.empty()))) set.push_back(effect);
+    else if (supported &&
+             std::ranges::none_of(set, [&](const Json& s) { return is_same(s, effect); }))
+      problem.identified.push_back(placed_of(effect, file));
   }
-  for (const Json& one : set)
-    if (problem.suspects.size() < most_suspects) problem.suspects.push_back(placed_of(one, file));
+  for (const Json& entry : set)
+    if (problem.suspects.size() < max_suspects) problem.suspects.push_back(placed_of(entry, file));
   return problem;
 }
 
@@ -86,9 +88,9 @@ Problem read_problem(const std::string& file) {
   try {
     return problem_of(parse_diagnosis<Json>(text, file), file);
   } catch (const Json::exception& e) {
-    const std::string why = e.what();  // text after the library's error code
+    const std::string reason = e.what();  // text after the library's error code
     throw std::invalid_argument(file + ": is not a diagnosis.json of erp gap diagnose (" +
-                                why.substr(why.find("] ") + 2) +
+                                reason.substr(reason.find("] ") + 2) +
                                 "); pass the diagnosis.json that erp gap diagnose wrote");
   }
 }
@@ -100,14 +102,14 @@ void print(const closed_loop::Experiment& experiment, const erp::Robot& robot,
   if (suspects.size() == 1) out << ", compared with the robot without it";
   out << fmt::format("\n{:<12}{:<18} {:>6} {:>12} {:>10}  {}\n", "", "excitation", "seed",
                      "diff., sigma", "tension", "");
-  constexpr std::size_t shown = 5;
-  for (std::size_t k = 0; k < std::min(shown, experiment.candidates.size()); ++k) {
+  constexpr std::size_t max_rows = 5;
+  for (std::size_t k = 0; k < std::min(max_rows, experiment.candidates.size()); ++k) {
     const auto& c = experiment.candidates[k];
     out << fmt::format("{:<12}{:<18} {:>6} {:>12.1f} {:>8.0f} %  {}\n", k ? "" : "candidates",
                        sim::excitation_name(robot, c.kind), c.seed, c.least,
                        100 * c.extremes.of_max_tension, c.unsafe);
   }
-  if (suspects.size() < 3) return;  // with two suspects the table shows it
+  if (suspects.size() < 3) return;  // with two suspects the table contains the difference
   const auto& split = experiment.candidates.front().split;
   for (std::size_t k = 0; k < split.size(); ++k)
     out << fmt::format("{:<12}{:.1f} sigma to {}\n", k ? "" : "best", split[k],
@@ -117,13 +119,13 @@ void print(const closed_loop::Experiment& experiment, const erp::Robot& robot,
 /// The suspects that no safe excitation distinguishes from the first.
 std::vector<Placed> never_distinguished(const closed_loop::Experiment& experiment,
                                         const std::vector<Placed>& suspects) {
-  std::vector<Placed> never;
+  std::vector<Placed> indistinguishable;
   for (std::size_t k = 1; k < suspects.size(); ++k)
     if (std::ranges::none_of(experiment.candidates, [&](const closed_loop::Candidate& c) {
-          return c.unsafe.empty() && c.split[k - 1] >= least_sigma;
+          return c.unsafe.empty() && c.split[k - 1] >= min_sigma;
         }))
-      never.push_back(suspects[k]);
-  return never;
+      indistinguishable.push_back(suspects[k]);
+  return indistinguishable;
 }
 
 std::string joined(const std::vector<Placed>& effects) {
@@ -136,19 +138,19 @@ closed_loop::Experiment search(const erp::Robot& robot, const std::vector<Placed
                                const PlanOptions& options, std::ostream& remarks) {
   Progress progress(remarks);
   std::mutex progress_mutex;
-  closed_loop::ExperimentOptions how{.seconds = options.seconds,
-                                     .candidates = options.candidates,
-                                     .threads = options.threads,
-                                     .seed = options.seed,
-                                     .to_stop_rad = options.to_stop_rad};
-  how.progress = [&](double share) {
+  closed_loop::ExperimentOptions search_options{.seconds = options.seconds,
+                                                .candidates = options.candidates,
+                                                .threads = options.threads,
+                                                .seed = options.seed,
+                                                .to_stop_rad = options.to_stop_rad};
+  search_options.progress = [&](double share) {
     const std::lock_guard lock(progress_mutex);
     progress.show("simulations", share);
   };
-  return closed_loop::next_experiment(robot, suspects, how);
+  return closed_loop::next_experiment(robot, suspects, search_options);
 }
 
-/// Throws std::invalid_argument if the robot has no part that an effect acts on.
+/// Throws std::invalid_argument if an effect acts on a part that the robot does not have.
 void check_places(const erp::Robot& robot, const std::vector<Placed>& effects,
                   const PlanOptions& options) {
   for (const Placed& placed : effects) {
@@ -160,8 +162,9 @@ void check_places(const erp::Robot& robot, const std::vector<Placed>& effects,
   }
 }
 
-/// Whether both have the same type, the same place and, within 0.1 %, the same values.
-bool same(Placed a, Placed b) {
+/// Whether two effects have the same type, the same part of the robot and, within 0.1 %, the same
+/// parameters.
+bool is_same(Placed a, Placed b) {
   if (a.on != b.on || a.effect.index() != b.effect.index()) return false;
   constexpr double rounding = 1e-3;  // diagnosis.json has fewer digits than robot.xml
   return std::ranges::equal(sim::effects::parameters(a.effect), sim::effects::parameters(b.effect),
@@ -170,14 +173,15 @@ bool same(Placed a, Placed b) {
                             });
 }
 
-/// Removes the effects of the answer, so that the robot.xml that erp gap diagnose wrote becomes the diagnosed model.
+/// Removes the effects of the answer: the robot.xml that erp gap diagnose wrote becomes the
+/// diagnosed model again.
 void remove_effects(erp::Robot& robot, const std::vector<Placed>& answer) {
-  const auto has = sim::effects::read_effects(robot);  // in the order of robot.effects
-  std::vector<erp::Effect> kept;
-  for (std::size_t k = 0; k < has.size(); ++k)
-    if (std::ranges::none_of(answer, [&](const Placed& a) { return same(has[k], a); }))
-      kept.push_back(robot.effects[k]);
-  robot.effects = std::move(kept);
+  const auto existing = sim::effects::read_effects(robot);  // in the order of robot.effects
+  std::vector<erp::Effect> remaining;
+  for (std::size_t k = 0; k < existing.size(); ++k)
+    if (std::ranges::none_of(answer, [&](const Placed& a) { return is_same(existing[k], a); }))
+      remaining.push_back(robot.effects[k]);
+  robot.effects = std::move(remaining);
 }
 
 }  // namespace
@@ -187,16 +191,16 @@ int plan(const PlanOptions& options, std::ostream& out, std::ostream& remarks) {
   if (robot.actuators.empty())
     throw std::invalid_argument(options.robot +
                                 ": has no actuator to move; pass a robot with muscles");
-  auto [diagnosed, suspects, known, more_sets, fix_first] = read_problem(options.diagnosis);
+  auto [diagnosed, suspects, identified, more_sets, fix_first] = read_problem(options.diagnosis);
   if (diagnosed != robot.name)
     throw std::invalid_argument(options.diagnosis + ": belongs to robot \"" + diagnosed +
                                 "\", but " + options.robot + " is \"" + robot.name +
                                 "\"; pass the robot that was diagnosed");
-  check_places(robot, suspects, options), check_places(robot, known, options);
+  check_places(robot, suspects, options), check_places(robot, identified, options);
   check_folder(options.out);
   remove_earlier_plan(options.out);
-  remove_effects(robot, suspects), remove_effects(robot, known);
-  for (const Placed& placed : known) robot.effects.push_back(sim::effects::written(placed));
+  remove_effects(robot, suspects), remove_effects(robot, identified);
+  for (const Placed& placed : identified) robot.effects.push_back(sim::effects::written(placed));
   if (suspects.empty()) {
     out << "nothing to plan: the diagnosis contains no effect that a motion can distinguish "
            "(constants are all estimated, and effects of the bus change no residual)\n";
@@ -208,23 +212,24 @@ int plan(const PlanOptions& options, std::ostream& out, std::ostream& remarks) {
         << ": fix its recordings first (see fix_first in it); until then its answer and this plan "
            "may be wrong\n";
   auto experiment = search(robot, suspects, options, remarks);
-  const auto never = never_distinguished(experiment, suspects);
-  if (!experiment.chosen.reference.empty() && !never.empty()) {
+  const auto indistinguishable = never_distinguished(experiment, suspects);
+  if (!experiment.chosen.reference.empty() && !indistinguishable.empty()) {
     out << fmt::format("no excitation distinguishes {} from {}; this needs another sensor\n",
-                       name_of(suspects[0]), joined(never));
-    if (never.size() + 1 == suspects.size()) return 5;
+                       name_of(suspects[0]), joined(indistinguishable));
+    if (indistinguishable.size() + 1 == suspects.size()) return 5;
     std::erase_if(suspects, [&](const Placed& s) {
-      return std::ranges::any_of(never, [&](const Placed& n) { return name_of(n) == name_of(s); });
+      return std::ranges::any_of(indistinguishable,
+                                 [&](const Placed& n) { return name_of(n) == name_of(s); });
     });
-    experiment = search(robot, suspects, options, remarks);  // for the others
+    experiment = search(robot, suspects, options, remarks);  // for the remaining suspects
   }
   print(experiment, robot, suspects, out);
   if (experiment.chosen.reference.empty()) {
     out << "no candidate is safe; try another --seed, more --candidates, or a smaller --margin\n";
     return 1;
   }
-  const auto& best = experiment.candidates.front();
-  if (best.least < least_sigma) {
+  const auto& best_candidate = experiment.candidates.front();
+  if (best_candidate.least < min_sigma) {
     out << (suspects.size() == 1
                 ? "no excitation distinguishes it from the robot without it; this needs another "
                   "sensor\n"
@@ -233,13 +238,14 @@ int plan(const PlanOptions& options, std::ostream& out, std::ostream& remarks) {
   }
   write_graph(options.out, options.robot, robot, experiment.chosen);
   out << fmt::format("chosen      largest tension {:.0f} % of the limit ({})",
-                     100 * best.extremes.of_max_tension, best.extremes.tightest);
-  if (!best.extremes.nearest.empty())
-    out << fmt::format(", smallest distance to a stop {:.3f} rad ({})", best.extremes.to_stop_rad,
-                       best.extremes.nearest);
-  if (!best.extremes.slowest.empty())
+                     100 * best_candidate.extremes.of_max_tension,
+                     best_candidate.extremes.tightest);
+  if (!best_candidate.extremes.nearest.empty())
+    out << fmt::format(", smallest distance to a stop {:.3f} rad ({})",
+                       best_candidate.extremes.to_stop_rad, best_candidate.extremes.nearest);
+  if (!best_candidate.extremes.slowest.empty())
     out << fmt::format(", full voltage for {:.0f} % of the time ({})",
-                       100 * best.extremes.saturated, best.extremes.slowest);
+                       100 * best_candidate.extremes.saturated, best_candidate.extremes.slowest);
   out << fmt::format(
       "\nnext        erp launch {}/graph.xml --for {:g}s        on the robot, add --device can\n",
       options.out, options.seconds);

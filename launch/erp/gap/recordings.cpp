@@ -23,15 +23,15 @@ namespace {
 namespace residuals = sim::residuals;
 namespace checks = sim::checks;
 
-/// Collects messages; joins the files of equal messages, so that each message appears once.
+/// Collects messages about files. Lists each message once, with all files that it concerns.
 class Messages {
  public:
   void add(const std::string& file, const std::vector<std::string>& of_file) {
     for (const std::string& message : of_file) {
       const std::string text = message.substr(file.size());  // each begins with the file name
-      const auto same = std::ranges::find(all_, text, &Message::text);
-      if (same == all_.end()) all_.push_back({file, text});
-      else same->files += ", " + file;
+      const auto existing = std::ranges::find(all_, text, &Message::text);
+      if (existing == all_.end()) all_.push_back({file, text});
+      else existing->files += ", " + file;
     }
   }
   std::vector<std::string> take() const {
@@ -47,16 +47,17 @@ class Messages {
   std::vector<Message> all_;
 };
 
-/// Hashes of the recordings read so far. Rejects copies, since data used for fitting cannot validate the fit.
+/// Hashes of the recordings read so far. Rejects copies, because data used for fitting cannot
+/// validate the fit.
 class Originals {
  public:
-  /// Throws std::invalid_argument if another recording holds the same values.
+  /// Throws std::invalid_argument if another recording contains the same values.
   void add(const std::string& file, const recording::Table& table) {
     const std::uint64_t hash = hash_of(table);
-    const auto same = std::ranges::find(all_, hash, &Original::hash);
-    if (same != all_.end())
+    const auto existing = std::ranges::find(all_, hash, &Original::hash);
+    if (existing != all_.end())
       throw std::invalid_argument(
-          fmt::format("{}: holds the same values as {}; remove the copy", file, same->file));
+          fmt::format("{}: holds the same values as {}; remove the copy", file, existing->file));
     all_.push_back({file, hash});
   }
 
@@ -65,10 +66,11 @@ class Originals {
     std::string file;
     std::uint64_t hash;
   };
-  /// FNV-1a of names and values.
+  /// FNV-1a hash of names and values.
   static std::uint64_t hash_of(const recording::Table& table) {
-    std::uint64_t hash = 14695981039346656037u;
-    const auto add = [&](std::uint64_t word) { hash = (hash ^ word) * 1099511628211u; };
+    constexpr std::uint64_t offset_basis = 14695981039346656037u, prime = 1099511628211u;  // FNV-1a
+    std::uint64_t hash = offset_basis;
+    const auto add = [&](std::uint64_t word) { hash = (hash ^ word) * prime; };
     for (const auto& column : table.columns) {
       for (const char c : column.name) add(std::uint64_t(c));
       for (const double x : column.values) add(std::bit_cast<std::uint64_t>(x));
@@ -82,7 +84,7 @@ class Originals {
 
 erp::Robot read_chains(const std::string& robot_file) {
   erp::Robot robot = residuals::as_chains(erp::read_robot(robot_file));
-  sim::estimation::constants_of(robot);  // throws if a tolerance matches no number
+  sim::estimation::constants_of(robot);  // throws if a tolerance matches no constant
   return robot;
 }
 

@@ -69,15 +69,16 @@ std::string fix_first(const Diagnosis& d) {
 std::string summary(const Diagnosis& d) {
   std::string html = fix_first(d);
   html += fmt::format("<div class=\"verdict\">{}</div>\n", title_of(d));
-  const bool whole = d.verdict == Verdict::supported;
+  const bool is_explained = d.verdict == Verdict::supported;
   if (!d.answer.empty())
-    html += whole ? "<ul>\n"
+    html += is_explained ? "<ul>\n"
             : d.verdict == Verdict::not_identifiable
                 ? "<p>Candidates:</p>\n<ul>\n"
                 : "<p>These effects explain a part of the gap only:</p>\n<ul>\n";
   for (const IdentifiedEffect& n : d.answer)
-    html += fmt::format("<li>{0}{2}{1}: {3}</li>\n", whole ? "<b>" : "", whole ? "</b>" : "",
-                        escaped(page::name_of(n)), escaped(parameters_of(n)));
+    html += fmt::format("<li>{0}{2}{1}: {3}</li>\n", is_explained ? "<b>" : "",
+                        is_explained ? "</b>" : "", escaped(page::name_of(n)),
+                        escaped(parameters_of(n)));
   if (!d.answer.empty()) html += "</ul>\n";
   for (const IdentifiedEffect& n : d.answer) {
     if (n.alternatives.empty()) continue;
@@ -98,7 +99,7 @@ std::string summary(const Diagnosis& d) {
   return html;
 }
 
-std::string use_of(const Diagnosis& d, const std::string& recording) {
+std::string purpose_of(const Diagnosis& d, const std::string& recording) {
   const bool trains = std::ranges::count(d.train, recording) > 0,
              validates = std::ranges::count(d.held_out, recording) > 0;
   return std::string(trains ? "training" : "") + (trains && validates ? ", " : "") +
@@ -108,7 +109,7 @@ std::string use_of(const Diagnosis& d, const std::string& recording) {
 std::string data(const Diagnosis& d) {
   std::string html = "<h2>Recordings</h2>\n<table><tr><th>file</th><th>used for</th></tr>\n";
   for (const std::string& name : d.recordings)
-    html += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", escaped(name), use_of(d, name));
+    html += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", escaped(name), purpose_of(d, name));
   html += "</table>\n";
   for (const std::string& warning : d.warnings)
     html += fmt::format("<p class=\"note\">{}</p>\n", escaped(warning));

@@ -4,12 +4,12 @@
 #include "sim/gap/closed_loop/free_run.hpp"
 #include "sim/gap/diagnosis/diagnose.hpp"
 
-/// The sections of report.html, each as HTML; empty if there is nothing to report.
+/// The sections of report.html, each as HTML. A section is empty if there is nothing to report.
 namespace launch::gap::page {
 
 std::string name_of(const sim::diagnosis::IdentifiedEffect& effect);  ///< "coulomb on m.gear"
 
-// location
+// localization
 std::string chains(const sim::diagnosis::Diagnosis& diagnosis);
 std::string worst_windows(const sim::diagnosis::Diagnosis& diagnosis);
 // identification

@@ -43,12 +43,12 @@ void print(const std::string& kind, const Score& score, std::ostream& out) {
 
 int blind_score(const std::string& folder, const std::string& truth_file, std::ostream& out) {
   const Json manifest = Json::parse(read_text(folder + "/cases.json"));
-  const std::string sealed = read_text(truth_file);
-  if (sha256(sealed) != manifest["truth_sha256"])
+  const std::string truth_text = read_text(truth_file);
+  if (sha256(truth_text) != manifest["truth_sha256"])
     throw std::invalid_argument(truth_file + ": its hash differs from that of the truth of " +
                                 folder + "; pass the --truth file of erp gap blind make");
-  const Json truths = Json::parse(sealed);
-  std::vector<std::string> of_constants;
+  const Json truths = Json::parse(truth_text);
+  std::vector<std::string> constant_effects;
   std::map<std::string, Score> scores;
   int missing = 0;
   for (const Json& truth : truths) {
@@ -58,22 +58,23 @@ int blind_score(const std::string& folder, const std::string& truth_file, std::o
       continue;
     }
     const Json d = parse_diagnosis<Json>(read_text(file), file);
-    const bool built = !truth.value("numbers", Json::array()).empty();
-    const std::string hides = truth["kind"],
-                      kind = hides + (built && hides != "many" ? ", as built" : "");
+    const bool is_as_built = !truth.value("numbers", Json::array()).empty();
+    const std::string hidden_kind = truth["kind"],
+                      kind =
+                          hidden_kind + (is_as_built && hidden_kind != "many" ? ", as built" : "");
     Score& score = scores[kind];
-    if (hides == "single") {
-      score_single(truth, d, built ? std::nullopt : closed_by_truth(folder, truth), score);
-      if (built) count_numbers(truth, d, score.rates["7 interval contains constant"]);
+    if (hidden_kind == "single") {
+      score_single(truth, d, is_as_built ? std::nullopt : closed_by_truth(folder, truth), score);
+      if (is_as_built) count_numbers(truth, d, score.rates["7 interval contains constant"]);
     }
-    if (hides == "many" || (hides == "null" && built)) {
-      if (of_constants.empty())
-        of_constants = effects_of_constants(erp::read_robot(folder + "/robot.xml"));
-      score_tolerance(truth, d, of_constants, score);
+    if (hidden_kind == "many" || (hidden_kind == "null" && is_as_built)) {
+      if (constant_effects.empty())
+        constant_effects = effects_of_constants(erp::read_robot(folder + "/robot.xml"));
+      score_tolerance(truth, d, constant_effects, score);
     }
-    if (hides == "null" && !built) score_null(truth, d, score);
-    if (hides == "pair") score_pair(truth, d, score);
-    if (hides == "outside" || hides == "withheld") score_none(truth, d, score);
+    if (hidden_kind == "null" && !is_as_built) score_null(truth, d, score);
+    if (hidden_kind == "pair") score_pair(truth, d, score);
+    if (hidden_kind == "outside" || hidden_kind == "withheld") score_none(truth, d, score);
   }
   for (const auto& [kind, score] : scores) print(kind, score, out);
   if (missing)

@@ -7,17 +7,19 @@
 #include <string>
 #include <vector>
 
-/// Scores one diagnosis by the truth about its case: what counts as success, by kind of case.
+/// Compares one diagnosis with the truth about its case. Each kind of case has its own criteria of
+/// success.
 namespace launch::gap {
 
 using Json = nlohmann::ordered_json;
 
 /// A success rate.
 struct Rate {
-  int yes = 0, of = 0;
-  void count(bool is) { ++of, yes += is; }
+  int successes = 0, total = 0;
+  void count(bool success) { ++total, successes += success; }
   std::string text() const {
-    return of ? fmt::format("{:5.1f} %  ({} of {})", 100.0 * yes / of, yes, of) : "-";
+    return total ? fmt::format("{:5.1f} %  ({} of {})", 100.0 * successes / total, successes, total)
+                 : "-";
   }
 };
 
@@ -29,15 +31,17 @@ struct Score {
   int sets = 0, groups = 0, closings = 0, answers = 0;
 };
 
-/// `most`: gap closure by the true effect, if the library has it.
-void score_single(const Json& truth, const Json& d, std::optional<double> most, Score& score);
+/// `true_closure`: gap closure by the true effect; empty if the library does not contain it.
+void score_single(const Json& truth, const Json& d, std::optional<double> true_closure,
+                  Score& score);
 void score_none(const Json& truth, const Json& d, Score& score);
 void score_pair(const Json& truth, const Json& d, Score& score);
 void score_null(const Json& truth, const Json& d, Score& score);
-/// Counts the intervals that contain the true number, for constants that the recordings determine.
+/// Counts the intervals that contain the true number, for the constants that the recordings
+/// determine.
 void count_numbers(const Json& truth, const Json& d, Rate& rate);
-/// Scores robots without a hidden effect whose constants deviate.
-void score_tolerance(const Json& truth, const Json& d, const std::vector<std::string>& of_constants,
-                     Score& score);
+/// Scores robots that have deviating constants and no hidden effect.
+void score_tolerance(const Json& truth, const Json& d,
+                     const std::vector<std::string>& constant_effects, Score& score);
 
 }  // namespace launch::gap

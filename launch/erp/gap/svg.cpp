@@ -11,9 +11,9 @@ namespace launch::gap::svg {
 namespace {
 
 std::string text(double x, double y, const std::string& words, const char* anchor = "start",
-                 const char* more = "") {
+                 const char* attributes = "") {
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" {}>{}</text>\n", x, y,
-                     anchor, more, xml::escaped(words));
+                     anchor, attributes, xml::escaped(words));
 }
 
 std::string rect(double x, double y, double w, double h, const std::string& style) {
@@ -21,7 +21,7 @@ std::string rect(double x, double y, double w, double h, const std::string& styl
                      y, std::max(0.0, w), h, style);
 }
 
-std::string opened(int width, int height) {
+std::string opening_tag(int width, int height) {
   return fmt::format("<svg viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" role=\"img\">\n",
                      width, height);
 }
@@ -42,10 +42,10 @@ struct Range {
     const double margin = std::max(0.05 * (high - low), 1e-12);
     low -= margin, high += margin;
   }
-  double at(double v) const { return (v - low) / (high - low); }
+  double fraction(double v) const { return (v - low) / (high - low); }
 };
 
-/// About four round values within the range.
+/// About four round numbers within the range.
 std::vector<double> ticks(const Range& range) {
   const double rough = (range.high - range.low) / 4;
   const double power = std::pow(10, std::floor(std::log10(rough)));
@@ -69,10 +69,10 @@ std::string plot(const Axes& axes, const std::vector<Line>& lines) {
   if (axes.band > 0) y.include(axes.band), y.include(-axes.band);
   if (x.low > x.high) x = {0, 1};
   y.widen();
-  const auto px = [&](double v) { return left + w * x.at(v); };
-  const auto py = [&](double v) { return top + h * (1 - y.at(v)); };
+  const auto px = [&](double v) { return left + w * x.fraction(v); };
+  const auto py = [&](double v) { return top + h * (1 - y.fraction(v)); };
   std::string svg =
-      opened(axes.width, axes.height) + text(left, 16, axes.title, "start", "class=\"t\"");
+      opening_tag(axes.width, axes.height) + text(left, 16, axes.title, "start", "class=\"t\"");
   if (axes.band > 0)
     svg += rect(left, py(axes.band), w, py(-axes.band) - py(axes.band), "class=\"band\"");
   for (const double t : ticks(y))
@@ -83,9 +83,9 @@ std::string plot(const Axes& axes, const std::vector<Line>& lines) {
   svg += text(left + w / 2, axes.height - 6, axes.x_label, "middle");
   svg += text(axes.width - right, 16, axes.y_label, "end");
   double legend = left + w;
-  // The last line is drawn first and widest, so that all lines are visible where they coincide.
+  // The last line is drawn first and is the widest: coinciding lines all remain visible.
   for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
-    const double wide = 1.4 + 1.2 * double(lines.rend() - line - 1);
+    const double line_width = 1.4 + 1.2 * double(lines.rend() - line - 1);
     std::string path;
     bool drawn = false;
     for (std::size_t k = 0; k < line->x.size(); ++k) {
@@ -97,7 +97,7 @@ std::string plot(const Axes& axes, const std::vector<Line>& lines) {
       drawn = true;
     }
     svg += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{:.1f}\"/>\n",
-                       path, line->colour, wide);
+                       path, line->colour, line_width);
     svg += text(legend, legend_y, line->label, "end",
                 fmt::format("fill=\"{}\"", line->colour).c_str());
     legend -= 9.0 * double(line->label.size()) + 12;
@@ -105,11 +105,11 @@ std::string plot(const Axes& axes, const std::vector<Line>& lines) {
   return svg + "</svg>\n";
 }
 
-std::string bars(const std::string& title, const std::vector<Bar>& all, double most) {
+std::string bars(const std::string& title, const std::vector<Bar>& all, double max_value) {
   constexpr int width = 860, left = 330, right = 150, row = 22, top = 28;
   const double w = width - left - right;
-  const auto px = [&](double v) { return left + w * std::clamp(v / most, 0.0, 1.0); };
-  std::string svg = opened(width, top + row * static_cast<int>(all.size()) + 8) +
+  const auto px = [&](double v) { return left + w * std::clamp(v / max_value, 0.0, 1.0); };
+  std::string svg = opening_tag(width, top + row * static_cast<int>(all.size()) + 8) +
                     text(0, 16, title, "start", "class=\"t\"");
   double y = top;
   for (const Bar& bar : all) {
@@ -130,7 +130,7 @@ std::string matrix(const std::string& title, const std::vector<std::string>& row
                    const std::vector<std::vector<double>>& cells) {
   constexpr int left = 330, cell_w = 54, cell_h = 22, top = 150;
   const int width = left + cell_w * static_cast<int>(columns.size()) + 90;
-  std::string svg = opened(width, top + cell_h * static_cast<int>(rows.size()) + 8) +
+  std::string svg = opening_tag(width, top + cell_h * static_cast<int>(rows.size()) + 8) +
                     text(0, 16, title, "start", "class=\"t\"");
   for (std::size_t c = 0; c < columns.size(); ++c) {
     const double x = left + cell_w * (double(c) + 0.5);
@@ -155,7 +155,7 @@ std::string matrix(const std::string& title, const std::vector<std::string>& row
 std::string chain(const std::string& title, const std::vector<std::string>& boxes,
                   const std::vector<double>& shares, const std::vector<std::string>& notes) {
   constexpr int step = 98, box = 82, height = 96;
-  std::string svg = opened(step * static_cast<int>(boxes.size()) + 10, height) +
+  std::string svg = opening_tag(step * static_cast<int>(boxes.size()) + 10, height) +
                     text(0, 16, title, "start", "class=\"t\"");
   for (std::size_t k = 0; k < boxes.size(); ++k) {
     const double x = 4 + step * double(k);

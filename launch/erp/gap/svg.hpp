@@ -24,15 +24,17 @@ struct Bar {
   bool strong = false;                  ///< dark colour
 };
 
-/// Horizontal bars from 0; values outside 0 … `most` are clipped; `note` shows the value.
-std::string bars(const std::string& title, const std::vector<Bar>& bars, double most);
+/// Horizontal bars from 0. Values outside 0 … `max_value` are clipped. `note` is printed beside the
+/// bar.
+std::string bars(const std::string& title, const std::vector<Bar>& bars, double max_value);
 
-/// Cells from 0 (white) to 1 (dark).
+/// A table of cells. The shade of a cell shows its value, from 0 (white) to 1 (dark).
 std::string matrix(const std::string& title, const std::vector<std::string>& rows,
                    const std::vector<std::string>& columns,
                    const std::vector<std::vector<double>>& cells);
 
-/// Boxes in a row, connected by arrows; `shares` in 0 … 1 set their shade, `notes` is printed in them.
+/// Boxes in a row, connected by arrows. `shares` (0 … 1) sets their shade; `notes` is printed in
+/// them.
 std::string chain(const std::string& title, const std::vector<std::string>& boxes,
                   const std::vector<double>& shares, const std::vector<std::string>& notes);
 

@@ -29,63 +29,64 @@ void print_row(const diagnosis::StageGap& gap, std::ostream& out) {
                      gap.floor > 0 ? gap.rms / gap.floor : 0, share, gap.windows);
 }
 
-/// Delay of the bus. It changes no residual; the ages of the commands that the ECUs executed show it.
+/// Delay of the bus. It changes no residual, but the ages of the commands that the ECUs executed.
 struct Bus {
   std::vector<diagnosis::Ages> ages;
-  bool present, evaluated, late;
-  bool explained = false;  ///< an effect of the bus explains the ages
-  double voltage_late_s;   ///< row_timing.hpp
+  bool has_bus, is_evaluated, is_delayed;
+  bool is_explained = false;  ///< an effect of the bus explains the ages
+  double voltage_delay_s;     ///< see row_timing.hpp
 };
 
 Bus evaluate_bus(const erp::Robot& robot, const std::vector<residuals::Episode>& episodes) {
   Bus bus;
   for (const auto& e : episodes) bus.ages.push_back(diagnosis::command_ages(e, robot));
-  bus.present = robot.drives.empty(), bus.evaluated = bus.present && diagnosis::has_enough_ages(bus.ages);
-  bus.voltage_late_s = episodes.empty() ? 0 : episodes[0].voltage_late_s;
-  bus.late = bus.evaluated && diagnosis::late_share(bus.ages) > diagnosis::practical_late;
+  bus.has_bus = robot.drives.empty(),
+  bus.is_evaluated = bus.has_bus && diagnosis::has_enough_ages(bus.ages);
+  bus.voltage_delay_s = episodes.empty() ? 0 : episodes[0].voltage_late_s;
+  bus.is_delayed = bus.is_evaluated && diagnosis::late_share(bus.ages) > diagnosis::practical_late;
   const auto fits = diagnosis::fit_bus(bus.ages, bus.ages, robot, {});
-  bus.explained = !fits.empty() && fits[0].supported;
+  bus.is_explained = !fits.empty() && fits[0].supported;
   return bus;
 }
 
 /// Returns whether any stage could be evaluated.
 bool print_summary(const erp::Robot& robot, const std::vector<diagnosis::StageGap>& gaps,
                    const Bus& bus, std::ostream& out) {
-  std::string open;
+  std::string open_stages;
   for (const auto& gap : gaps)
     if (gap.open)
-      open += fmt::format("{}{} of {}", open.empty() ? "" : ", ", sim::effects::word(gap.stage),
-                          gap.on);
+      open_stages += fmt::format("{}{} of {}", open_stages.empty() ? "" : ", ",
+                                 sim::effects::word(gap.stage), gap.on);
   auto not_evaluated = diagnosis::not_evaluated(robot, gaps);
-  if (bus.present && !bus.evaluated) not_evaluated.emplace_back("the bus");
-  const bool any = std::ranges::any_of(gaps, &diagnosis::StageGap::judged);
+  if (bus.has_bus && !bus.is_evaluated) not_evaluated.emplace_back("the bus");
+  const bool has_evaluated_stage = std::ranges::any_of(gaps, &diagnosis::StageGap::judged);
   if (!not_evaluated.empty())
     out << fmt::format("not evaluated, because signals or motion are missing: {}\n",
                        fmt::join(not_evaluated, ", "));
-  if (bus.late && !bus.explained)
+  if (bus.is_delayed && !bus.is_explained)
     out << fmt::format(
         "in {:.0f} % of the ticks with a new command the ECUs appear to have executed an older "
         "command, but no effect of the bus explains the ages; check the tension and shaft columns, "
         "whose errors look the same\n",
         100 * diagnosis::late_share(bus.ages));
-  else if (bus.late)
+  else if (bus.is_delayed)
     out << fmt::format(
         "the bus is late: in {:.0f} % of the ticks with a new command the ECUs executed an older "
         "command, {:.3g} ms old on average\n",
         100 * diagnosis::late_share(bus.ages), 1e3 * diagnosis::mean_age_s(bus.ages));
-  if (const double late_s = bus.voltage_late_s; late_s > 0)
+  if (const double delay_s = bus.voltage_delay_s; delay_s > 0)
     out << fmt::format(
         "the bus is late: voltages act {:.3g} ms after their rows, or all sensors lag by that "
         "time\n",
-        1e3 * late_s);
-  if (!open.empty()) out << "the gap is in: " << open << "\n";
-  else if (!any) out << nothing_evaluated;
-  else if (bus.late)
+        1e3 * delay_s);
+  if (!open_stages.empty()) out << "the gap is in: " << open_stages << "\n";
+  else if (!has_evaluated_stage) out << nothing_evaluated;
+  else if (bus.is_delayed)
     out << "no gap elsewhere: the residuals of all evaluated stages are within their noise\n";
   else if (not_evaluated.empty())
     out << "no gap: the residuals of all stages are within their noise\n";
   else out << "no gap in the other stages: their residuals are within their noise\n";
-  return any;
+  return has_evaluated_stage;
 }
 
 }  // namespace

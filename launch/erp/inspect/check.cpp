@@ -25,14 +25,15 @@
 namespace launch {
 namespace {
 
-/// Checks files, each once, and the files that a graph names.
+/// Checks files and the files that a graph names. Checks each file only once.
 class Checker {
  public:
   Checker(std::ostream& out, const CheckComponent& component) : out_(out), component_(component) {}
 
   void check(const std::string& file) {
     std::error_code ignored;
-    if (!done_.insert(std::filesystem::weakly_canonical(file, ignored).string()).second) return;
+    if (!checked_files_.insert(std::filesystem::weakly_canonical(file, ignored).string()).second)
+      return;
     try {
       check_as(xml::read_document(file), file);
     } catch (const xml::Errors& errors) {
@@ -41,14 +42,14 @@ class Checker {
       print_errors(file + ": " + error.what());
     }
   }
-  int exit_code() const { return valid_ ? 0 : 2; }
+  int exit_code() const { return is_valid_ ? 0 : 2; }
 
  private:
   void check_as(const xml::Element& root, const std::string& file) {
     if (root.name == erp::Robot::element) {
       const erp::Robot robot = erp::read_robot(file);
       sim::effects::equip(robot);
-      launch::gap::read_chains(file);  // throws if a tolerance matches no number
+      launch::gap::read_chains(file);  // throws if a tolerance matches no constant
       erp::refuse_overload(robot);
       print_ok(file);
       if (!robot.can_buses.empty())
@@ -58,8 +59,8 @@ class Checker {
       const erp::Graph graph = erp::read_graph(file);
       print_ok(file);
       check(graph.robot);
-      for (const erp::GraphComponent& line : graph.components)
-        if (!line.config.empty()) check(line.config);
+      for (const erp::GraphComponent& component : graph.components)
+        if (!component.config.empty()) check(component.config);
     } else if (reads_as_one_of<sim::calibration::Choice, sim::cameras::ViewConfig,
                                sim::muscle_networks::LearnedMuscles, sim::loop_shaping::JointShape,
                                sim::sensorimotor::LearnedMapFile, sim::experience::Task,
@@ -71,7 +72,8 @@ class Checker {
     }
   }
 
-  /// Reads a file that a config or a verb names, by its root element. Throws Errors.
+  /// If the root element is that of one of the types `Kind`, reads the file as that type and
+  /// returns true. Throws xml::Errors.
   template <class... Kind>
   bool reads_as_one_of(const std::string& root, const std::string& file) {
     return ((xml::is_element_name<Kind>(root) && (xml::read<Kind>(file), true)) || ...);
@@ -90,14 +92,14 @@ class Checker {
 
   void print_ok(const std::string& file) { out_ << file << ": ok\n"; }
   void print_errors(const std::string& lines) {
-    valid_ = false;
+    is_valid_ = false;
     out_ << lines << (lines.ends_with('\n') ? "" : "\n");
   }
 
   std::ostream& out_;
   const CheckComponent& component_;
-  std::set<std::string> done_;
-  bool valid_ = true;
+  std::set<std::string> checked_files_;
+  bool is_valid_ = true;
 };
 
 }  // namespace

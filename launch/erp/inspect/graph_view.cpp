@@ -21,7 +21,7 @@ using Names = std::set<std::string>;
 
 constexpr auto empty_hint = "; start a graph, or set ERP_DOMAIN to the domain of its launcher\n";
 
-constexpr std::int64_t heartbeats_ns = 700'000'000;  // seven heartbeats after discovery
+constexpr std::int64_t heartbeat_wait_ns = 700'000'000;  // seven heartbeats after discovery
 
 std::string name_of(const node::Endpoint& endpoint) {
   return endpoint.component.empty() ? "?" : endpoint.component;
@@ -95,7 +95,7 @@ int show_components(std::ostream& out) {
     });
     return false;
   };
-  if (!discovery.watch(node::discovery_ns() + heartbeats_ns, take_states)) return 1;
+  if (!discovery.watch(node::discovery_ns() + heartbeat_wait_ns, take_states)) return 1;
   if (robots.empty()) out << "the bus has no component" << empty_hint;
   for (const auto& [robot, components] : robots) {
     out << "robot " << (robot.empty() ? "-" : robot) << '\n';

@@ -12,10 +12,10 @@ int show_components(std::ostream& out);       ///< `erp ps`
 int show_topics(std::ostream& out);           ///< `erp ls`
 int show_graph(bool all, std::ostream& out);  ///< `erp graph`: DOT
 
-/// Components and topics in DOT. Without `all`, the topics that every component has
-/// (component_state, lifecycle_command, event) and the tools of `erp` are omitted. Pure.
+/// Components and topics in DOT. Without `all`, omits the topics of every component
+/// (component_state, lifecycle_command, event) and the tools of `erp`. Does not use the bus.
 std::string to_dot(const std::vector<node::Endpoint>& endpoints, bool all);
-/// One line per topic: type, writers, readers. Pure.
+/// One line per topic: type, writers, readers. Does not use the bus.
 std::vector<std::string> topic_table(const std::vector<node::Endpoint>& endpoints);
 
 }  // namespace launch

@@ -31,7 +31,7 @@ std::map<std::string, Describe> formats_of() {
 
 const std::map<std::string, Describe> main_formats = formats_of<erp::Robot, erp::Graph>();
 
-/// Files that configs of components and verbs name.
+/// Formats of the files that configs of components and verbs refer to.
 const std::map<std::string, Describe> named_files =
     formats_of<sim::loop_shaping::JointShape, sim::cameras::ViewConfig,
                sim::muscle_networks::LearnedMuscles, sim::sensorimotor::LearnedMapFile,
@@ -40,7 +40,7 @@ const std::map<std::string, Describe> named_files =
 
 const Describe* find(const std::string& name) {
   for (const auto* formats : {&main_formats, &named_files})
-    if (const auto found = formats->find(name); found != formats->end()) return &found->second;
+    if (const auto format = formats->find(name); format != formats->end()) return &format->second;
   return nullptr;
 }
 
@@ -50,7 +50,7 @@ std::vector<std::string> names_of(const std::map<std::string, Describe>& formats
   return names;
 }
 
-/// The names on lines of at most 100 columns, below each other from column 19 on.
+/// The names, wrapped to lines of at most 100 columns that begin at column 19.
 std::string wrapped(const std::vector<std::string>& names) {
   constexpr std::size_t indent = 19, width = 100;
   std::string text;
@@ -63,26 +63,26 @@ std::string wrapped(const std::vector<std::string>& names) {
   return text;
 }
 
-[[noreturn]] void refuse(const std::string& name) {
-  auto known = component_names();
-  for (const auto& more : {names_of(main_formats), names_of(named_files)})
-    known.insert(known.end(), more.begin(), more.end());
+[[noreturn]] void throw_unknown_name(const std::string& name) {
+  auto valid_names = component_names();
+  for (const auto& names : {names_of(main_formats), names_of(named_files)})
+    valid_names.insert(valid_names.end(), names.begin(), names.end());
   throw std::invalid_argument("help: no XML format, component or verb \"" + name + "\"; " +
-                              xml::did_you_mean(name, known) + "; erp help lists all");
+                              xml::did_you_mean(name, valid_names) + "; erp help lists all");
 }
 
 }  // namespace
 
 void print_reference(const std::string& name, const DescribeComponent& describe,
                      std::ostream& out) {
-  const char* columns = "Columns: name, type with range, unit, default, meaning.\n\n";
+  const char* columns = "Columns: name, type with range, unit, default, description.\n\n";
   if (const Describe* format = find(name)) {
     out << "<" << name << ">: attributes, and elements in <>, indented below their element.\n"
         << columns << (*format)();
     return;
   }
   const auto table = describe(name);
-  if (!table) refuse(name);
+  if (!table) throw_unknown_name(name);
   const std::string type = std::filesystem::path(name).filename().string();
   out << type << ": parameters of a component, as attributes of <" << type
       << "> in its config or by --set " << type << ".PARAMETER=VALUE of erp launch.\n"

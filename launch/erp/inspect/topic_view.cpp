@@ -14,9 +14,9 @@
 namespace launch {
 namespace {
 
-constexpr int depth = 256;                         // chosen: messages that arrive during printing
+constexpr int queue_depth = 256;                   // chosen: messages that arrive during printing
 constexpr std::int64_t window_ns = 1'000'000'000;  // chosen: one line per second
-constexpr double day_us = 86400e6;
+constexpr double day_us = 86400e6;                 // larger ages mean stamps in simulated time
 
 /// Subscription to one discovered topic.
 class Listener {
@@ -25,23 +25,24 @@ class Listener {
       : discovery_(verb),
         descriptor_(discovery_.find_type(options.topic)),
         type_(node::describe(*descriptor_)),
-        reader_(discovery_.participant(), discovery_.wake(), *descriptor_, options.topic, depth),
+        reader_(discovery_.participant(), discovery_.wake(), *descriptor_, options.topic,
+                queue_depth),
         duration_ns_(options.for_s > 0 ? static_cast<std::int64_t>(options.for_s * 1e9)
                                        : std::numeric_limits<std::int64_t>::max() / 2) {}
 
   const recording::TypeDescription& type() const { return type_; }
 
-  /// Calls `use` for each sample until it returns true, the duration has passed or a signal
-  /// arrives. Calls `pause` after each batch of samples.
-  template <class Use, class Pause>
-  void each(Use&& use, Pause&& pause) {
+  /// Calls `on_sample` for each sample until it returns true, the duration has passed or a signal
+  /// arrives. Calls `on_batch` after each batch of samples.
+  template <class OnSample, class OnBatch>
+  void for_each(OnSample&& on_sample, OnBatch&& on_batch) {
     discovery_.watch(duration_ns_, [&] {
-      bool enough = false;
+      bool is_done = false;
       reader_.take([&](const node::RawSample& sample) {
-        if (!enough) enough = use(recording::ByteView(sample.cdr));
+        if (!is_done) is_done = on_sample(recording::ByteView(sample.cdr));
       });
-      pause();
-      return enough;
+      on_batch();
+      return is_done;
     });
   }
 
@@ -54,9 +55,9 @@ class Listener {
 };
 
 /// Timer that is due once per window.
-class Every {
+class PeriodicTimer {
  public:
-  bool due() {
+  bool is_due() {
     const std::int64_t now_ns = node::monotonic_ns();
     if (now_ns - last_ns_ < window_ns) return false;
     elapsed_s_ = 1e-9 * static_cast<double>(now_ns - last_ns_);
@@ -75,7 +76,7 @@ class Every {
 int echo(const TopicViewOptions& options, std::ostream& out) {
   Listener listener("echo", options);
   long received = 0;
-  listener.each(
+  listener.for_each(
       [&](recording::ByteView cdr) {
         out << to_yaml(recording::decode_cdr(listener.type(), cdr)) << "---\n";
         return ++received == options.messages;
@@ -86,11 +87,11 @@ int echo(const TopicViewOptions& options, std::ostream& out) {
 
 int show_rate(const TopicViewOptions& options, std::ostream& out) {
   Listener listener("hz", options);
-  Every window;
+  PeriodicTimer window;
   Spread intervals_us;
   std::int64_t last_ns = 0;
   std::size_t received = 0, total = 0;
-  listener.each(
+  listener.for_each(
       [&](recording::ByteView) {
         const std::int64_t now_ns = node::monotonic_ns();
         if (last_ns) intervals_us.add(1e-3 * static_cast<double>(now_ns - last_ns));
@@ -99,7 +100,7 @@ int show_rate(const TopicViewOptions& options, std::ostream& out) {
         return false;
       },
       [&] {
-        if (!window.due()) return;
+        if (!window.is_due()) return;
         char rate[32];
         std::snprintf(rate, sizeof rate, "%8.1f Hz",
                       static_cast<double>(received) / window.elapsed_s());
@@ -118,10 +119,10 @@ int show_delay(const TopicViewOptions& options, std::ostream& out) {
   if (!listener.type().root().find("stamp_ns"))
     throw std::invalid_argument("\"" + options.topic +
                                 "\" has no field stamp_ns, so its age is unknown; use erp hz");
-  Every window;
+  PeriodicTimer window;
   Spread ages_us;
   std::size_t total = 0;
-  listener.each(
+  listener.for_each(
       [&](recording::ByteView cdr) {
         const auto stamp_ns = recording::header_of(listener.type(), cdr).stamp_ns;
         if (stamp_ns) ages_us.add(1e-3 * static_cast<double>(node::wall_ns() - *stamp_ns));
@@ -129,7 +130,7 @@ int show_delay(const TopicViewOptions& options, std::ostream& out) {
         return false;
       },
       [&] {
-        if (!window.due()) return;
+        if (!window.is_due()) return;
         if (ages_us.count() == 0) out << "no message";
         else if (ages_us.quantile(0.5) > day_us)
           out << "stamps are in simulated time; their age is not defined";

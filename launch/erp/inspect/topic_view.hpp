@@ -14,9 +14,9 @@ struct TopicViewOptions {
 
 /// `erp echo`: every message as YAML, separated by `---`.
 int echo(const TopicViewOptions& options, std::ostream& out);
-/// `erp hz`: each second the rate and the quantiles of the intervals between arrivals.
+/// `erp hz`: once per second, the rate and the quantiles of the intervals between arrivals.
 int show_rate(const TopicViewOptions& options, std::ostream& out);
-/// `erp delay`: each second the quantiles of the message age on arrival, now − stamp_ns.
+/// `erp delay`: once per second, the quantiles of the age of messages on arrival: now − stamp_ns.
 int show_delay(const TopicViewOptions& options, std::ostream& out);
 
 }  // namespace launch

@@ -24,10 +24,10 @@ void add_check(CLI::App& app, Chosen& chosen) {
       app.add_subcommand("check", "Check robot, graph and config files and print all errors");
   auto files = std::make_shared<std::vector<std::string>>();
   auto schema = std::make_shared<std::string>();
-  auto* named =
+  auto* files_option =
       verb->add_option("files", *files, "XML files; for a graph, also the files that it names");
   verb->add_option("--schema", *schema, "print the XSD of robot or graph instead of checking files")
-      ->excludes(named);
+      ->excludes(files_option);
   verb->callback([files, schema, &chosen] {
     chosen = [files, schema] {
       if (!schema->empty()) return print_schema(*schema, std::cout), 0;
@@ -38,17 +38,20 @@ void add_check(CLI::App& app, Chosen& chosen) {
   });
 }
 
-/// The parameters of a component of erp, or of one given by the path of its program.
+/// The parameters of a component of erp, or of a component given by the path of its program.
+/// nullopt if there is no such program.
 static std::optional<std::string> describe_by_program(const std::string& type) {
-  const auto own = component_names();
-  const bool is_known = std::find(own.begin(), own.end(), type) != own.end();
+  const auto erp_components = component_names();
+  const bool is_known =
+      std::find(erp_components.begin(), erp_components.end(), type) != erp_components.end();
   if (!is_known && type.find('/') == type.npos) return std::nullopt;
   const std::string program = find_program(type, ".");
   if (program.empty()) return std::nullopt;
   return describe_component(program);
 }
 
-/// robot and graph are formats before they are verbs.
+/// Prints the help of a verb, or the reference of a format or component. `graph` is both a verb and
+/// a format; the format takes precedence.
 static void print_help(const CLI::App& app, const std::string& name, std::ostream& out) {
   if (name.empty()) return list_references(out);
   if (name != erp::Graph::element)

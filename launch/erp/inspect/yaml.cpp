@@ -11,19 +11,19 @@ bool holds_structures(const recording::Values& values) {
   return !values.empty() && values.front().members() != nullptr;
 }
 
-/// Quotes text that YAML would read as another type.
+/// A value on one line; quotes text that YAML would read as another type.
 std::string scalar(const recording::Value& value) {
   const std::string* text = value.text();
   if (!text) return recording::to_text(value);
-  const auto plain = [](char c) {
+  const auto is_unquoted = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '-' || c == '.' || c == ' ' || c == '/' || static_cast<unsigned char>(c) >= 0x80;
   };
-  const auto letter = [](char c) { return (c | 0x20) >= 'a' && (c | 0x20) <= 'z'; };
-  const bool reserved = *text == "true" || *text == "false" || *text == "null" || *text == "yes" ||
-                        *text == "no" || *text == "on" || *text == "off";
-  if (!text->empty() && letter(text->front()) && text->back() != ' ' && !reserved &&
-      std::all_of(text->begin(), text->end(), plain))
+  const auto is_letter = [](char c) { return (c | 0x20) >= 'a' && (c | 0x20) <= 'z'; };
+  const bool is_reserved = *text == "true" || *text == "false" || *text == "null" ||
+                           *text == "yes" || *text == "no" || *text == "on" || *text == "off";
+  if (!text->empty() && is_letter(text->front()) && text->back() != ' ' && !is_reserved &&
+      std::all_of(text->begin(), text->end(), is_unquoted))
     return *text;
   recording::Value list;  // JSON quotes are valid in YAML
   list.data = recording::Values{value};

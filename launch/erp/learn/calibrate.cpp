@@ -16,10 +16,10 @@ namespace calibration = sim::calibration;
 
 int calibrate_check(const std::string& robot_file, const PoseFiles& files, std::ostream& out) {
   const erp::Robot robot = erp::read_robot(robot_file);
-  const calibration::Parameters none(robot, {});
+  const calibration::Parameters unchanged(robot, {});
   const auto poses = read_poses(robot, files);
   print_errors(robot, poses,
-               {errors_of("by statics", none.start(), poses),
+               {errors_of("by statics", unchanged.start(), poses),
                 simulated_errors("simulated", robot, poses, 2)},
                out);
   return 0;
@@ -30,8 +30,8 @@ int calibrate_run(const CalibrateOptions& options, std::ostream& out, std::ostre
   const erp::Robot robot = erp::read_robot(options.robot);
   const calibration::Parameters parameters(robot, xml::read<calibration::Choice>(options.choice));
   const auto poses = read_poses(robot, options.poses);
-  const auto training = make_calibration({parameters, poses}, options.how);
-  const bool ended = run_training(*training, options.training, *pool, remarks);
+  const auto training = make_calibration({parameters, poses}, options.fit);
+  const bool is_complete = run_training(*training, options.training, *pool, remarks);
   const auto slope = turns(parameters, training->best(), poses.learn, *pool).slope;
   if (!pool->first()) return 0;
 
@@ -50,7 +50,7 @@ int calibrate_run(const CalibrateOptions& options, std::ostream& out, std::ostre
   print_identified(parameters, identified, out);
   out << fmt::format(
       "{}/robot.xml is the calibrated robot, curve.svg the course of the calibration\n", folder);
-  return ended ? 0 : 1;
+  return is_complete ? 0 : 1;
 }
 
 }  // namespace launch

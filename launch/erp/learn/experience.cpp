@@ -21,8 +21,8 @@ using sim::experience::FeedbackKind;
 using sim::experience::Task;
 using sim::simulated_training::ExperienceTraining;
 
-constexpr std::array ways{FeedbackKind::none, FeedbackKind::linear, FeedbackKind::fuzzy};
-constexpr std::array way_names{"feed-forward", "linear", "fuzzy"};
+constexpr std::array feedback_kinds{FeedbackKind::none, FeedbackKind::linear, FeedbackKind::fuzzy};
+constexpr std::array feedback_names{"feed-forward", "linear", "fuzzy"};
 
 std::shared_ptr<const sim::experience::Feedback> feedback(FeedbackKind kind, const Task& task,
                                                           const ExperienceTraining& training,
@@ -35,7 +35,8 @@ std::shared_ptr<const sim::experience::Feedback> feedback(FeedbackKind kind, con
   return nullptr;
 }
 
-/// New targets, each reached with each kind of feedback, with alternating starts.
+/// Tests with new targets: the hand reaches for each target with each kind of feedback. The
+/// starting poses alternate.
 class Tests {
  public:
   Tests(const ExperienceTraining& training, const erp::Robot& robot, const Task& task)
@@ -43,43 +44,45 @@ class Tests {
     if (task.rules.empty()) kinds_.pop_back();
   }
 
-  /// False: interrupted.
+  /// Runs all tests. Returns false if interrupted.
   bool run(const ExperienceOptions& options, const sim::Pool& pool, std::ostream& remarks) {
-    const auto all = static_cast<std::size_t>(options.tests) * kinds_.size();
-    off_m_ = run_tests(
-        all,
+    const auto test_count = static_cast<std::size_t>(options.tests) * kinds_.size();
+    offsets_m_ = run_tests(
+        test_count,
         [&](std::size_t k) {
-          const Vec3 off_m = ended(k / kinds_.size(), kinds_[k % kinds_.size()], nullptr);
-          return sim::Pool::Numbers(off_m.begin(), off_m.end());
+          const Vec3 offset_m =
+              final_offset_m(k / kinds_.size(), kinds_[k % kinds_.size()], nullptr);
+          return sim::Pool::Numbers(offset_m.begin(), offset_m.end());
         },
         options.training, pool, remarks);
-    return off_m_.size() == all;
+    return offsets_m_.size() == test_count;
   }
-  std::size_t count() const { return off_m_.size() / kinds_.size(); }
+  std::size_t count() const { return offsets_m_.size() / kinds_.size(); }
   std::size_t kinds() const { return kinds_.size(); }
   Vec3 target_m(std::size_t test) const {
     return training_.fresh_target(static_cast<std::uint64_t>(task_.seed), test);
   }
-  Vec3 off_m(std::size_t test, std::size_t kind) const {
-    return Eigen::Map<const Vec3>(off_m_[test * kinds_.size() + kind].data());
+  Vec3 offset_m(std::size_t test, std::size_t kind) const {
+    return Eigen::Map<const Vec3>(offsets_m_[test * kinds_.size() + kind].data());
   }
   sim::simulated_training::HandTrack track(std::size_t test, std::size_t kind) const {
     sim::simulated_training::HandTrack track;
-    ended(test, kinds_[kind], &track);
+    final_offset_m(test, kinds_[kind], &track);
     return track;
   }
 
  private:
-  /// The hand's final offset, without measurement noise.
-  Vec3 ended(std::size_t test, FeedbackKind kind,
-             sim::simulated_training::HandTrack* result) const {
+  /// Final offset of the hand from the target, in m, without measurement noise. NaN if an ECU
+  /// tripped.
+  Vec3 final_offset_m(std::size_t test, FeedbackKind kind,
+                      sim::simulated_training::HandTrack* result) const {
     const int start = static_cast<int>(test % training_.file().starts.all.size());
     const Vec3 target = target_m(test);
     auto reach = training_.reach(start, target, feedback(kind, task_, training_, start, target));
-    sim::simulated_training::HandTrack own, &track = result ? *result : own;
-    constexpr std::uint64_t of_noise = 77;  // a stream different from that of the target
-    const auto seed =
-        sim::training_loop::random_stream(static_cast<std::uint64_t>(task_.seed), test, of_noise)();
+    sim::simulated_training::HandTrack unused_track, &track = result ? *result : unused_track;
+    constexpr std::uint64_t noise_stream = 77;  // differs from the stream of the targets; chosen
+    const auto seed = sim::training_loop::random_stream(static_cast<std::uint64_t>(task_.seed),
+                                                        test, noise_stream)();
     if (!play(reach, robot_, task_.hand, task_.noise_m, seed, &track))
       return Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
     return track.hand_m.back() - target;
@@ -88,28 +91,29 @@ class Tests {
   const ExperienceTraining& training_;
   const erp::Robot& robot_;
   const Task& task_;
-  std::vector<FeedbackKind> kinds_{ways.begin(), ways.end()};
-  std::vector<sim::Pool::Numbers> off_m_;
+  std::vector<FeedbackKind> kinds_{feedback_kinds.begin(), feedback_kinds.end()};
+  std::vector<sim::Pool::Numbers> offsets_m_;
 };
 
 void print_offsets(const Tests& tests, std::ostream& out) {
   out << fmt::format("offset at rest, {} new targets, mm\n{:<14}{:>22}{:>22}{:>22}\n",
                      tests.count(), "", "x  mean / max", "y  mean / max", "z  mean / max");
   for (std::size_t kind = 0; kind < tests.kinds(); ++kind) {
-    Vec3 sum = Vec3::Zero(), most = Vec3::Zero();
+    Vec3 sum_mm = Vec3::Zero(), max_offset_mm = Vec3::Zero();
     std::size_t tripped = 0;
     for (std::size_t k = 0; k < tests.count(); ++k) {
-      const Vec3 off = 1e3 * tests.off_m(k, kind).cwiseAbs();
-      if (!off.allFinite()) {
+      const Vec3 offset_mm = 1e3 * tests.offset_m(k, kind).cwiseAbs();
+      if (!offset_mm.allFinite()) {
         ++tripped;
         continue;
       }
-      sum += off, most = most.cwiseMax(off);
+      sum_mm += offset_mm, max_offset_mm = max_offset_mm.cwiseMax(offset_mm);
     }
-    const Vec3 mean = sum / static_cast<double>(std::max<std::size_t>(1, tests.count() - tripped));
-    out << fmt::format("{:<14}", way_names[kind]);
+    const Vec3 mean_mm =
+        sum_mm / static_cast<double>(std::max<std::size_t>(1, tests.count() - tripped));
+    out << fmt::format("{:<14}", feedback_names[kind]);
     for (int axis = 0; axis < 3; ++axis)
-      out << fmt::format("{:>14.2f} / {:>5.2f}", mean[axis], most[axis]);
+      out << fmt::format("{:>14.2f} / {:>5.2f}", mean_mm[axis], max_offset_mm[axis]);
     out << (tripped ? fmt::format("   {} ended by an ECU that tripped\n", tripped) : "\n");
   }
 }
@@ -118,9 +122,10 @@ std::string csv_of(const Tests& tests) {
   std::string text = "test,feedback,target_x_m,target_y_m,target_z_m,off_x_mm,off_y_mm,off_z_mm\n";
   for (std::size_t k = 0; k < tests.count(); ++k)
     for (std::size_t kind = 0; kind < tests.kinds(); ++kind) {
-      const Vec3 at = tests.target_m(k), off = 1e3 * tests.off_m(k, kind);
+      const Vec3 target_m = tests.target_m(k), offset_mm = 1e3 * tests.offset_m(k, kind);
       text += fmt::format("{},{},{:.6f},{:.6f},{:.6f},{:.4f},{:.4f},{:.4f}\n", k + 1,
-                          way_names[kind], at.x(), at.y(), at.z(), off.x(), off.y(), off.z());
+                          feedback_names[kind], target_m.x(), target_m.y(), target_m.z(),
+                          offset_mm.x(), offset_mm.y(), offset_mm.z());
     }
   return text;
 }
@@ -132,7 +137,8 @@ PlotScript figure(const Tests& tests) {
   for (std::size_t kind = 1; kind < tests.kinds(); ++kind) {
     const auto track = tests.track(0, kind);
     data += fmt::format("$way{} << E\n", kind);
-    for (std::size_t k = 0; k < track.time_s.size(); k += 10)
+    constexpr std::size_t every = 10;  // samples per plotted point; chosen
+    for (std::size_t k = 0; k < track.time_s.size(); k += every)
       data +=
           fmt::format("{} {} {} {} {}\n", track.time_s[k], track.hand_m[k].x(), track.hand_m[k].y(),
                       track.hand_m[k].z(), 1e3 * (track.hand_m[k] - tests.target_m(0)).norm());
@@ -144,13 +150,13 @@ PlotScript figure(const Tests& tests) {
                          tests.target_m(0)[axis]);
     for (std::size_t kind = 1; kind < tests.kinds(); ++kind)
       plots += fmt::format(", $way{} using 1:{} with lines lw 2 lc rgb '{}' title '{} feedback'",
-                           kind, axis + 2, colours[kind - 1], way_names[kind]);
+                           kind, axis + 2, colours[kind - 1], feedback_names[kind]);
     plots += "\n";
   }
   plots += "set ylabel 'off mm'\nset logscale y\nset xlabel 's'\nplot";
   for (std::size_t kind = 1; kind < tests.kinds(); ++kind)
     plots += fmt::format("{} $way{} using 1:5 with lines lw 2 lc rgb '{}' title '{} feedback'",
-                         kind > 1 ? "," : "", kind, colours[kind - 1], way_names[kind]);
+                         kind > 1 ? "," : "", kind, colours[kind - 1], feedback_names[kind]);
   plots += "\n";
   return {.commands = data +
                       "set multiplot layout 4,1\nset lmargin 12\nset rmargin 22\n"

@@ -20,9 +20,9 @@ std::vector<calibration::StillPose> poses_in(const erp::Robot& robot,
 }  // namespace
 
 calibration::PoseSet read_poses(const erp::Robot& robot, const PoseFiles& files) {
-  auto learn = poses_in(robot, files.learn);
-  if (files.check.empty()) return calibration::split(std::move(learn));
-  return {std::move(learn), poses_in(robot, files.check)};
+  auto training_poses = poses_in(robot, files.learn);
+  if (files.check.empty()) return calibration::split(std::move(training_poses));
+  return {std::move(training_poses), poses_in(robot, files.check)};
 }
 
 }  // namespace launch

@@ -17,9 +17,9 @@ namespace {
 namespace calibration = sim::calibration;
 using calibration::Quantity;
 
-/// Remaining uncertainty, relative to the spread, above which a parameter counts as undetermined;
+/// A parameter with a larger remaining uncertainty, relative to its spread, counts as undetermined;
 /// chosen.
-constexpr double unknown = 0.9;
+constexpr double undetermined_limit = 0.9;
 
 std::vector<std::string> joints_of(const erp::Robot& robot) {
   std::vector<std::string> names;
@@ -29,15 +29,16 @@ std::vector<std::string> joints_of(const erp::Robot& robot) {
 }
 
 struct Change {
-  double by = 0;
+  double amount = 0;
   const char* unit = "";
 };
 
-/// A change in customary units.
+/// The change of a parameter in mm, or in percent for stiffness and radius.
 Change change_of(const calibration::Parameter& parameter, double x) {
-  const double off = parameter.spread * x;
-  const bool relative = parameter.what == Quantity::stiffness || parameter.what == Quantity::radius;
-  return relative ? Change{100 * std::expm1(off), "%"} : Change{1e3 * off, "mm"};
+  const double change = parameter.spread * x;
+  const bool is_relative =
+      parameter.what == Quantity::stiffness || parameter.what == Quantity::radius;
+  return is_relative ? Change{100 * std::expm1(change), "%"} : Change{1e3 * change, "mm"};
 }
 
 }  // namespace
@@ -57,11 +58,11 @@ ErrorColumn simulated_errors(const std::string& name, const erp::Robot& robot,
   sim::in_parallel(poses.check.empty() ? 1 : 2, threads, [&](std::size_t k) {
     const std::vector<calibration::StillPose>& part = *parts[k].first;
     std::vector<std::vector<double>> shafts_rad;
-    for (const auto& still : part) shafts_rad.push_back(still.shaft_rad);
-    std::vector<sim::Pose> there;
-    for (const auto& standing : sim::closed_loop::rest_poses(robot, shafts_rad))
-      there.push_back(standing.pose);
-    *parts[k].second = errors_between(robot, part, there);
+    for (const auto& measured : part) shafts_rad.push_back(measured.shaft_rad);
+    std::vector<sim::Pose> simulated_poses;
+    for (const auto& rest : sim::closed_loop::rest_poses(robot, shafts_rad))
+      simulated_poses.push_back(rest.pose);
+    *parts[k].second = errors_between(robot, part, simulated_poses);
   });
   return column;
 }
@@ -72,9 +73,9 @@ void print_errors(const erp::Robot& robot, const calibration::PoseSet& poses,
   out << fmt::format("{:<24} {:>6}", "mean error, degrees", "poses");
   for (const ErrorColumn& column : columns) out << fmt::format(" {:>10}", column.name);
   const auto names = joints_of(robot);
-  const auto rows = [&](const char* of, std::size_t count, auto errors) {
+  const auto rows = [&](const char* set_name, std::size_t count, auto errors) {
     for (std::size_t j = 0; count > 0 && j < names.size(); ++j) {
-      out << fmt::format("\n{:<24} {:>6}", names[j] + ", " + of, count);
+      out << fmt::format("\n{:<24} {:>6}", names[j] + ", " + set_name, count);
       for (const ErrorColumn& column : columns)
         out << fmt::format(" {:>10.2f}", (column.*errors).mean_rad[j] / degree);
     }
@@ -89,7 +90,7 @@ void print_identified(const calibration::Parameters& parameters,
   std::string names;
   int count = 0;
   for (std::size_t k = 0; k < parameters.list().size(); ++k)
-    if (identified.remaining[static_cast<Eigen::Index>(k)] > unknown)
+    if (identified.remaining[static_cast<Eigen::Index>(k)] > undetermined_limit)
       names += (count++ ? ", " : "") + parameters.name_of(parameters.list()[k]);
   out << fmt::format("identified: {} combinations of {} parameters\n", identified.combinations,
                      parameters.size());
@@ -102,11 +103,11 @@ std::string parameters_csv(const calibration::Parameters& parameters, const Eige
                            const calibration::Identified& identified) {
   std::string text = "parameter,changed,unit,remaining_uncertainty\n";
   for (std::size_t k = 0; k < parameters.list().size(); ++k) {
-    const auto at = static_cast<Eigen::Index>(k);
-    const Change change = change_of(parameters.list()[k], x[at]);
+    const auto index = static_cast<Eigen::Index>(k);
+    const Change change = change_of(parameters.list()[k], x[index]);
     text += fmt::format("{},{:.4g},{},{:.3f}\n",
-                        recording::csv_cell(parameters.name_of(parameters.list()[k])), change.by,
-                        change.unit, identified.remaining[at]);
+                        recording::csv_cell(parameters.name_of(parameters.list()[k])),
+                        change.amount, change.unit, identified.remaining[index]);
   }
   return text;
 }

@@ -21,12 +21,12 @@ struct Spread {
   double mean = 0, deviation = 0;
 };
 
-/// Mean and deviation of |e| over goals in one trial.
-Spread spread(const SensorimotorTraining& training, std::size_t attempt) {
+/// Mean and standard deviation of the error |e| over all goals in one trial.
+Spread spread(const SensorimotorTraining& training, std::size_t trial) {
   double sum = 0, squares = 0;
   const auto n = static_cast<double>(training.goals().size());
   for (const auto& goal : training.goals())
-    sum += goal.errors[attempt], squares += std::pow(goal.errors[attempt], 2);
+    sum += goal.errors[trial], squares += std::pow(goal.errors[trial], 2);
   return {sum / n, std::sqrt(std::max(0.0, squares / n - std::pow(sum / n, 2)))};
 }
 
@@ -58,16 +58,17 @@ void print_synergies(const SensorimotorTraining& training, const erp::Robot& rob
 
 void print_errors(const SensorimotorTraining& training, std::ostream& out) {
   if (trials(training) == 0) return;
-  const Spread first = spread(training, 0), last = spread(training, trials(training) - 1);
+  const Spread first_trial = spread(training, 0),
+               last_trial = spread(training, trials(training) - 1);
   out << fmt::format(
       "error over {} goals, tangent of the viewing angle: trial 1 {:.4f} ± {:.4f}, trial {} {:.4f} "
       "± "
       "{:.4f}, {:.1f} % of the first\n",
-      training.goals().size(), first.mean, first.deviation, trials(training), last.mean,
-      last.deviation, 100 * last.mean / first.mean);
+      training.goals().size(), first_trial.mean, first_trial.deviation, trials(training),
+      last_trial.mean, last_trial.deviation, 100 * last_trial.mean / first_trial.mean);
 }
 
-/// Q as squares whose area is the magnitude, filled if positive; and the error by trial.
+/// Two panels: the matrix Q as squares (area: magnitude; filled: positive), and the error by trial.
 PlotScript figure(const SensorimotorTraining& training, const erp::Robot& robot) {
   const Eigen::MatrixXd q = training.learned().q();
   std::string data = "$q << E\n", muscles, senses;
@@ -124,7 +125,7 @@ int learn_sensorimotor(const SensorimotorOptions& options, std::ostream& out,
   SensorimotorTraining training(robot, view_of(experiment, options.experiment), experiment);
   TrainingRunOptions run = options.training;
   run.rounds = 1 + experiment.session.trials;
-  const bool ended = run_training(training, run, *pool, remarks);
+  const bool is_complete = run_training(training, run, *pool, remarks);
   if (!pool->first()) return 0;
   write_file(run.folder + "/learned.xml", training.state());
   draw(figure(training, robot), run.folder + "/figure.svg");
@@ -137,7 +138,7 @@ int learn_sensorimotor(const SensorimotorOptions& options, std::ostream& out,
       "{0}/learned.xml is an initial map for the component sensorimotor, "
       "{0}/figure.svg shows it\n",
       run.folder);
-  return ended ? 0 : 1;
+  return is_complete ? 0 : 1;
 }
 
 }  // namespace launch

@@ -19,10 +19,10 @@ namespace {
 using sim::simulated_training::SynergyTraining;
 using Test = SynergyTraining::Test;
 
-constexpr std::array bank_shares{1.0, 0.5, 0.25, 0.1};
+constexpr std::array bank_fractions{1.0, 0.5, 0.25, 0.1};
 
-/// A bank reduced to a share of its plans, and its tests.
-struct Tested {
+/// A bank with a fraction `share` of the plans, and its tests.
+struct TestedBank {
   double share;
   sim::synergy::Bank bank;
   std::vector<Test> tests;
@@ -47,25 +47,26 @@ Test test_of(const std::vector<double>& n) {
   return {{n[0], n[1], n[2]}, n[3] != 0, {n[4] != 0, n[5], n[6], n[7], n[8], n[9]}, n[10]};
 }
 
-/// Tests each share of the bank; empty: interrupted.
-std::vector<Tested> tested(const SynergyTraining& training, std::uint64_t seed,
-                           const SynergyOptions& options, const sim::Pool& pool,
-                           std::ostream& remarks) {
-  std::vector<Tested> results;
-  for (const double share : bank_shares) {
+/// Tests the bank with each fraction of its plans. Returns an empty list if interrupted.
+std::vector<TestedBank> test_banks(const SynergyTraining& training, std::uint64_t seed,
+                                   const SynergyOptions& options, const sim::Pool& pool,
+                                   std::ostream& remarks) {
+  std::vector<TestedBank> results;
+  for (const double share : bank_fractions) {
     results.push_back({.share = share, .bank = training.bank(), .tests = {}});
     results.back().bank.cut(
         static_cast<std::size_t>(share * double(training.bank().plans().size()) + 0.5));
   }
   const auto count = static_cast<std::size_t>(options.tests);
-  const auto all = run_tests(
+  const auto numbers = run_tests(
       count * results.size(),
       [&](std::size_t k) {
         return numbers_of(training.test(results[k / count].bank, seed, k % count));
       },
       options.training, pool, remarks);
-  if (all.size() < count * results.size()) return {};
-  for (std::size_t k = 0; k < all.size(); ++k) results[k / count].tests.push_back(test_of(all[k]));
+  if (numbers.size() < count * results.size()) return {};
+  for (std::size_t k = 0; k < numbers.size(); ++k)
+    results[k / count].tests.push_back(test_of(numbers[k]));
   return results;
 }
 
@@ -102,7 +103,7 @@ void print_heights(const std::vector<Test>& tests, std::ostream& out) {
   }
 }
 
-void print(const std::vector<Tested>& results, std::ostream& out) {
+void print(const std::vector<TestedBank>& results, std::ostream& out) {
   const auto& tests = results.front().tests;
   std::vector<double> speeds, stayed, jerks;
   for (const Test& test : tests) {
@@ -117,19 +118,20 @@ void print(const std::vector<Tested>& results, std::ostream& out) {
       "zone, "
       "jerk {:.1f} times the minimum\n",
       median(speeds), median(stayed), median(jerks));
-  for (const Tested& result : results)
+  constexpr double explained_variance = 0.9;  // fraction of the weights' sum of squares; chosen
+  for (const TestedBank& result : results)
     out << fmt::format(
         "{:>4.0f} % of the bank, {:>3} plans, {:>2} synergies (90 %): struck{:>6.1f} %, "
         "returned{:>6.1f} %\n",
-        100 * result.share, result.bank.plans().size(), components(result.bank, 0.9),
+        100 * result.share, result.bank.plans().size(), components(result.bank, explained_variance),
         struck_percent(result.tests), returned_percent(result.tests));
 }
 
-std::string csv_of(const std::vector<Tested>& results) {
+std::string csv_of(const std::vector<TestedBank>& results) {
   std::string text =
       "share,target_x_m,target_y_m,target_z_m,returned,struck,nearest_m,"
       "strike_s,strike_speed_m_per_s,stayed,reward,relative_jerk\n";
-  for (const Tested& result : results)
+  for (const TestedBank& result : results)
     for (const Test& test : result.tests) {
       text += fmt::format("{}", result.share);
       for (const double number : numbers_of(test)) text += fmt::format(",{:.6g}", number);
@@ -139,33 +141,34 @@ std::string csv_of(const std::vector<Tested>& results) {
 }
 
 /// Writes each reduced bank to its own file.
-void write_parts(const std::vector<Tested>& results, const sim::synergy::BankFile& file,
+void write_parts(const std::vector<TestedBank>& results, const sim::synergy::BankFile& file,
                  const std::string& folder) {
-  for (const Tested& part : results)
+  for (const TestedBank& part : results)
     if (part.share < 1)
       write_file(fmt::format("{}/bank_{:.0f}.xml", folder, 100 * part.share),
                  text_of(file, part.bank));
 }
 
-/// Struck and missed targets from the side and from above, and the success rate against the number
-/// of plans.
-PlotScript figure(const std::vector<Tested>& results) {
+/// Three panels: struck and missed targets from the side and from above, and the success rate by
+/// number of plans.
+PlotScript figure(const std::vector<TestedBank>& results) {
   std::string data = "$t << E\n";
   for (const Test& test : results.front().tests)
     data += fmt::format("{} {} {} {}\n", test.target_m.x(), test.target_m.y(), test.target_m.z(),
                         test.outcome.struck ? 1 : 0);
   data += "E\n$b << E\n";
-  for (const Tested& result : results)
+  for (const TestedBank& result : results)
     data += fmt::format("{} {}\n", result.bank.plans().size(), struck_percent(result.tests));
   data += "E\n";
-  const auto view = [](const char* title, int across, int up, const char* x, const char* y) {
+  const auto view = [](const char* title, int horizontal, int vertical, const char* x,
+                       const char* y) {
     return fmt::format(
         "set title '{0}'\nset xlabel '{3} m'\nset ylabel '{4} m'\n"
         "plot $t using {1}:($4 > 0 ? ${2} : 1/0) with points pt 7 ps 0.8 lc rgb '#0072B2' title "
         "'struck', "
         "$t using {1}:($4 > 0 ? 1/0 : ${2}) with points pt 2 ps 0.9 lw 2 lc rgb '#D55E00' title "
         "'missed'\n",
-        title, across, up, x, y);
+        title, horizontal, vertical, x, y);
   };
   return {.commands = data +
                       "set multiplot layout 1,3\nset grid\nset key below\nset size ratio -1\n" +
@@ -191,7 +194,7 @@ int learn_synergy(const SynergyOptions& options, std::ostream& out, std::ostream
   if (pool->first()) write_file(run.folder + "/bank.xml", training.state());
   if (options.tests > 0) {
     const auto results =
-        tested(training, static_cast<std::uint64_t>(task.seed), options, *pool, remarks);
+        test_banks(training, static_cast<std::uint64_t>(task.seed), options, *pool, remarks);
     if (results.empty()) return 1;
     if (!pool->first()) return 0;
     write_file(run.folder + "/tests.csv", csv_of(results));

@@ -6,7 +6,8 @@
 
 namespace launch {
 
-/// The rows of the poses.csv that a task names, or the robot's starting pose if it names none.
+/// The poses in the file `poses` of a task, relative to the task file; if `poses` is empty, the
+/// starting pose of the robot.
 std::vector<sim::Pose> task_poses(const std::string& task_file, const std::string& poses,
                                   const erp::Robot& robot);
 

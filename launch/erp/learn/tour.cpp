@@ -7,13 +7,13 @@
 namespace launch {
 namespace {
 
-using References = std::vector<double>;  ///< by column
+using References = std::vector<double>;  ///< line length references of one row, in m, by column
 
 std::vector<std::size_t> columns_ending(const recording::Table& table, const std::string& signal) {
-  std::vector<std::size_t> found;
+  std::vector<std::size_t> columns;
   for (std::size_t c = 0; c < table.columns.size(); ++c)
-    if (recording::signal_of(table.columns[c].name) == signal) found.push_back(c);
-  return found;
+    if (recording::signal_of(table.columns[c].name) == signal) columns.push_back(c);
+  return columns;
 }
 
 References row_of(const recording::Table& table, const std::vector<std::size_t>& columns,
@@ -23,10 +23,10 @@ References row_of(const recording::Table& table, const std::vector<std::size_t>&
   return all;
 }
 
-double most_apart(const References& a, const References& b) {
-  double most = 0;
-  for (std::size_t c = 0; c < a.size(); ++c) most = std::max(most, std::abs(a[c] - b[c]));
-  return most;
+double max_difference_m(const References& a, const References& b) {
+  double max_m = 0;
+  for (std::size_t c = 0; c < a.size(); ++c) max_m = std::max(max_m, std::abs(a[c] - b[c]));
+  return max_m;
 }
 
 References midway(References a, const References& b) {
@@ -34,20 +34,20 @@ References midway(References a, const References& b) {
   return a;
 }
 
-/// References that stay constant for at least 0.5 s, each once.
-std::vector<References> holds(const recording::Table& table,
-                              const std::vector<std::size_t>& columns) {
-  constexpr double still_m = 1e-5, least_s = 0.5;  // chosen
+/// The references of each interval of at least `min_hold_s` in which they stay constant.
+std::vector<References> held_references(const recording::Table& table,
+                                        const std::vector<std::size_t>& columns) {
+  constexpr double max_motion_m = 1e-5, min_hold_s = 0.5;  // chosen
   const auto& time_s = table.columns.front().values;
-  std::vector<References> found;
+  std::vector<References> poses;
   for (std::size_t begin = 0, end = 0; begin < table.rows(); begin = end) {
-    const References here = row_of(table, columns, begin);
+    const References first = row_of(table, columns, begin);
     for (end = begin;
-         end < table.rows() && most_apart(here, row_of(table, columns, end)) < still_m;)
+         end < table.rows() && max_difference_m(first, row_of(table, columns, end)) < max_motion_m;)
       ++end;
-    if (time_s[end - 1] - time_s[begin] >= least_s) found.push_back(here);
+    if (time_s[end - 1] - time_s[begin] >= min_hold_s) poses.push_back(first);
   }
-  return found;
+  return poses;
 }
 
 }  // namespace
@@ -55,8 +55,8 @@ std::vector<References> holds(const recording::Table& table,
 int calibrate_tour(const TourOptions& options, std::ostream& out) {
   const recording::Table plan = recording::read_table(options.lengths);
   const auto references = columns_ending(plan, "reference");
-  const auto held = holds(plan, references);
-  if (held.size() < 2)
+  const auto held_poses = held_references(plan, references);
+  if (held_poses.size() < 2)
     throw std::invalid_argument(options.lengths +
                                 ": holds fewer than two poses for half a second; use a trajectory "
                                 "of line lengths, as written by erp model lengths");
@@ -75,8 +75,8 @@ int calibrate_tour(const TourOptions& options, std::ostream& out) {
     time_s += options.hold_s, add(pose);
   };
   add(row_of(plan, references, 0));
-  for (std::size_t k = 0; k < held.size(); ++k)
-    hold(held[k]), hold(midway(held[k], held[(k + 1) % held.size()]));
+  for (std::size_t k = 0; k < held_poses.size(); ++k)
+    hold(held_poses[k]), hold(midway(held_poses[k], held_poses[(k + 1) % held_poses.size()]));
   recording::write_csv(tour, out);
   return 0;
 }

@@ -24,15 +24,15 @@ std::string unit_of(const std::string& metric) {
   return metric.substr(metric.find_last_of('_') + 1);
 }
 
-/// A gnuplot string in which nothing is interpreted.
+/// The text as a single-quoted gnuplot string, which has no escape sequences.
 std::string quoted(std::string text) {
   for (std::size_t k = 0; (k = text.find('\'', k)) != std::string::npos; k += 2)
     text.insert(k, "'");
   return "'" + text + "'";
 }
 
-/// Draws folder/curve.csv as folder/curve.svg, with one panel for each unit at the end of the
-/// metrics' names. Throws as `draw`.
+/// Draws folder/curve.csv as folder/curve.svg, with one panel per unit. The unit is the end of the
+/// name of a metric. Throws the exceptions of `draw`.
 void draw_curve(const std::vector<sim::training_loop::Metric>& metrics, const std::string& folder) {
   std::vector<std::string> units;
   for (const auto& metric : metrics)
@@ -62,49 +62,49 @@ void draw_curve(const std::vector<sim::training_loop::Metric>& metrics, const st
 
 bool run_training(sim::training_loop::Training& training, const TrainingRunOptions& options,
                   const sim::Pool& pool, std::ostream& remarks) {
-  bool on = true;
+  bool is_running = true;
   {
     Progress progress(remarks);
-    int first = -1;  // first round of this run; resumed rounds took no time
-    sim::training_loop::run(
-        training,
-        {.folder = options.folder,
-         .rounds = options.rounds,
-         .resume = options.resume,
-         .on_round =
-             [&](const auto& now) {
-               if (first < 0) first = now.rounds() - 1;
-               progress.show(progress_line(now, options.rounds),
-                             double(now.rounds() - first) / double(options.rounds - first));
-               return on = !options.interrupted();
-             }},
-        pool);
+    int first_round = -1;  // first round of this run: the progress excludes resumed rounds
+    sim::training_loop::run(training,
+                            {.folder = options.folder,
+                             .rounds = options.rounds,
+                             .resume = options.resume,
+                             .on_round =
+                                 [&](const auto& current) {
+                                   if (first_round < 0) first_round = current.rounds() - 1;
+                                   progress.show(progress_line(current, options.rounds),
+                                                 double(current.rounds() - first_round) /
+                                                     double(options.rounds - first_round));
+                                   return is_running = !options.interrupted();
+                                 }},
+                            pool);
   }
   if (!pool.first()) return true;
   draw_curve(training.metrics(), options.folder);
-  if (!on)
+  if (!is_running)
     remarks << fmt::format(
         "interrupted after round {} of {}; continue with the same command and --resume\n",
         training.rounds(), options.rounds);
-  return on;
+  return is_running;
 }
 
 std::vector<sim::Pool::Numbers> run_tests(
     std::size_t count, const std::function<sim::Pool::Numbers(std::size_t)>& test,
     const TrainingRunOptions& options, const sim::Pool& pool, std::ostream& remarks) {
-  constexpr std::size_t at_once = 16;  // tests between two checks for Ctrl-C; chosen
+  constexpr std::size_t batch_size = 16;  // tests between two checks for Ctrl-C; chosen
   std::vector<sim::Pool::Numbers> all;
-  bool on = true;
+  bool is_running = true;
   {
     Progress progress(remarks);
-    while (on && all.size() < count) {
-      const std::size_t done = all.size();
-      for (auto& numbers :
-           pool.map(std::min(at_once, count - done), [&](std::size_t k) { return test(done + k); }))
+    while (is_running && all.size() < count) {
+      const std::size_t completed = all.size();
+      for (auto& numbers : pool.map(std::min(batch_size, count - completed),
+                                    [&](std::size_t k) { return test(completed + k); }))
         all.push_back(std::move(numbers));
       progress.show(fmt::format("test {} of {}", all.size(), count),
                     double(all.size()) / double(count));
-      on = pool.broadcast(pool.first() && options.interrupted() ? "" : "on") == "on";
+      is_running = pool.broadcast(pool.first() && options.interrupted() ? "" : "on") == "on";
     }
   }
   if (pool.first() && all.size() < count)

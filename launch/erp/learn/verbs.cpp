@@ -17,44 +17,45 @@ void add_training_options(CLI::App* verb, TrainingRunOptions& training) {
   verb->add_flag("--resume", training.resume, "continue the run in the folder");
 }
 
-/// Runs the verb; Ctrl-C stops it after a checkpoint.
+/// Makes the verb call `learn`. Ctrl-C stops the training after a checkpoint.
 template <class Options>
-void run_by(CLI::App* verb, std::shared_ptr<Options> o,
-            int (*learn)(const Options&, std::ostream&, std::ostream&), Chosen& chosen) {
+void set_callback(CLI::App* verb, std::shared_ptr<Options> options,
+                  int (*learn)(const Options&, std::ostream&, std::ostream&), Chosen& chosen) {
   verb->callback([=, &chosen] {
     chosen = [=] {
       const auto signals = std::make_shared<Signals>();
-      o->training.interrupted = [signals] { return signals->take() != 0; };
-      return learn(*o, std::cout, std::cerr);
+      options->training.interrupted = [signals] { return signals->take() != 0; };
+      return learn(*options, std::cout, std::cerr);
     };
   });
 }
 
 void add_sensorimotor(CLI::App& learn, Chosen& chosen) {
-  auto o = std::make_shared<SensorimotorOptions>();
+  auto options = std::make_shared<SensorimotorOptions>();
   auto* verb = learn.add_subcommand(
       "sensorimotor", "Learn reaching in a camera image, from twitches and trials (paper, 5.4)");
-  verb->add_option("--robot", o->robot, "robot.xml")->required();
-  verb->add_option("--experiment", o->experiment, "<sensorimotor view=\"…\">: goals, trials …")
+  verb->add_option("--robot", options->robot, "robot.xml")->required();
+  verb->add_option("--experiment", options->experiment,
+                   "<sensorimotor view=\"…\">: goals, trials …")
       ->required();
-  verb->add_option("--seed", o->seed, "default: the experiment's")->check(above_zero());
-  add_training_options(verb, o->training);
-  run_by(verb, o, learn_sensorimotor, chosen);
+  verb->add_option("--seed", options->seed, "default: the experiment's")->check(above_zero());
+  add_training_options(verb, options->training);
+  set_callback(verb, options, learn_sensorimotor, chosen);
 }
 
-/// A training that a task file describes and that is tested on new targets.
+/// Adds the options of a training that a task file describes, with tests on new targets.
 template <class Options>
-void add_tested(CLI::App* verb, int (*learn)(const Options&, std::ostream&, std::ostream&),
-                const std::string& task, const std::string& tests, Chosen& chosen) {
-  auto o = std::make_shared<Options>();
-  verb->add_option("--robot", o->robot, "robot.xml")->required();
-  verb->add_option("--task", o->task, task)->required();
-  verb->add_option("--tests", o->tests, tests)
+void add_tested_training(CLI::App* verb, int (*learn)(const Options&, std::ostream&, std::ostream&),
+                         const std::string& task, const std::string& tests, Chosen& chosen) {
+  auto options = std::make_shared<Options>();
+  verb->add_option("--robot", options->robot, "robot.xml")->required();
+  verb->add_option("--task", options->task, task)->required();
+  verb->add_option("--tests", options->tests, tests)
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
-  verb->add_option("--seed", o->seed, "default: the task's")->check(above_zero());
-  add_training_options(verb, o->training);
-  run_by(verb, o, learn, chosen);
+  verb->add_option("--seed", options->seed, "default: the task's")->check(above_zero());
+  add_training_options(verb, options->training);
+  set_callback(verb, options, learn, chosen);
 }
 
 void add_goals(CLI::App& learn, Chosen& chosen) {
@@ -91,12 +92,12 @@ void add_learn(CLI::App& app, Chosen& chosen) {
   learn->footer(
       "Exit codes: 0 done, 1 interrupted (continue with --resume), 2 bad usage or input.");
   add_sensorimotor(*learn, chosen);
-  add_tested(
+  add_tested_training(
       learn->add_subcommand("experience",
                             "Learn reaching from stored experiences, with feedback (paper, 5.6)"),
       learn_experience, "<acquisition>: hand, zone, patterns …",
       "number of test targets, each with every kind of feedback", chosen);
-  add_tested(
+  add_tested_training(
       learn->add_subcommand(
           "synergy", "Learn motor plans that strike a bottle, by reinforcement (paper, 5.5)"),
       learn_synergy, "<striking>: hand, zone, bottle, muscles …",

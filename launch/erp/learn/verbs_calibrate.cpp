@@ -19,18 +19,18 @@ void add_poses(CLI::App* verb, std::string& robot, PoseFiles& poses) {
 }
 
 void add_tour(CLI::App& calibrate, Chosen& chosen) {
-  auto o = std::make_shared<TourOptions>();
+  auto options = std::make_shared<TourOptions>();
   auto out = std::make_shared<std::string>();
   auto* tour = calibrate.add_subcommand(
       "tour",
       "Print the motion to record: each pose of a trajectory, held, and midway to the next");
-  tour->add_option("lengths", o->lengths,
+  tour->add_option("lengths", options->lengths,
                    "trajectory of line lengths, as written by erp model lengths")
       ->required();
-  tour->add_option("--hold", o->hold_s, "time that each pose is held, s")
+  tour->add_option("--hold", options->hold_s, "time that each pose is held, s")
       ->capture_default_str()
       ->check(CLI::Range(0.5, 600.0));
-  tour->add_option("--move", o->move_s, "time from one pose to the next, s")
+  tour->add_option("--move", options->move_s, "time from one pose to the next, s")
       ->capture_default_str()
       ->check(CLI::Range(0.1, 600.0));
   add_former_option(*tour, "--still", "--hold");
@@ -38,44 +38,47 @@ void add_tour(CLI::App& calibrate, Chosen& chosen) {
   tour->add_option("--out", *out, "file to write; default: standard output");
   tour->callback([=, &chosen] {
     chosen = [=] {
-      return write_output(*out, [=](std::ostream& to) { return calibrate_tour(*o, to); });
+      return write_output(*out, [=](std::ostream& to) { return calibrate_tour(*options, to); });
     };
   });
 }
 
 void add_run(CLI::App& calibrate, Chosen& chosen) {
   using sim::calibration::Strategy;
-  auto o = std::make_shared<CalibrateOptions>();
-  o->training.threads = all_cores();
-  o->training.rounds = 250;
+  auto options = std::make_shared<CalibrateOptions>();
+  options->training.threads = all_cores();
+  options->training.rounds = 250;
   auto* run = calibrate.add_subcommand(
       "run", "Fit parameters to the poses; under mpirun the processes share the work");
   run->footer("Exit codes: 0 done, 1 interrupted (continue with --resume), 2 bad usage or input.");
-  add_poses(run, o->robot, o->poses);
-  run->add_option("--vary", o->choice, "file of the parameters to fit: <calibration><vary …/>…")
+  add_poses(run, options->robot, options->poses);
+  run->add_option("--vary", options->choice,
+                  "file of the parameters to fit: <calibration><vary …/>…")
       ->required();
-  run->add_option("--out", o->training.folder,
+  run->add_option("--out", options->training.folder,
                   "folder for the calibrated robot.xml and the reports")
       ->required();
-  run->add_option("--strategy", o->how.strategy, "evolution, cma (CMA-ES) or newton (Gauss-Newton)")
+  run->add_option("--strategy", options->fit.strategy,
+                  "evolution, cma (CMA-ES) or newton (Gauss-Newton)")
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, Strategy>{{"evolution", Strategy::evolution},
                                           {"cma", Strategy::cma},
                                           {"newton", Strategy::newton}}));
-  run->add_option("--generations", o->training.rounds, "largest number of rounds")
+  run->add_option("--generations", options->training.rounds, "largest number of rounds")
       ->capture_default_str()
       ->check(above_zero());
-  run->add_option("--seed", o->how.seed, "seed of the random numbers")->capture_default_str();
-  run->add_option("--bound", o->how.bound, "limit of a parameter's change, in spreads")
+  run->add_option("--seed", options->fit.seed, "seed of the random numbers")->capture_default_str();
+  run->add_option("--bound", options->fit.bound, "limit of a parameter's change, in spreads")
       ->capture_default_str()
       ->check(above_zero());
-  run->add_option("--threads", o->training.threads, "default: all cores")->check(above_zero());
-  run->add_flag("--resume", o->training.resume, "continue the run in the folder");
+  run->add_option("--threads", options->training.threads, "default: all cores")
+      ->check(above_zero());
+  run->add_flag("--resume", options->training.resume, "continue the run in the folder");
   run->callback([=, &chosen] {
     chosen = [=] {
       const auto signals = std::make_shared<Signals>();
-      o->training.interrupted = [signals] { return signals->take() != 0; };
-      return calibrate_run(*o, std::cout, std::cerr);
+      options->training.interrupted = [signals] { return signals->take() != 0; };
+      return calibrate_run(*options, std::cout, std::cerr);
     };
   });
 }
@@ -89,8 +92,8 @@ void add_pose_check(CLI::App& calibrate, Chosen& chosen) {
       [=, &chosen] { chosen = [=] { return calibrate_check(*robot, *poses, std::cout); }; });
 }
 
-/// "elbow=32.9".
-std::pair<std::string, double> joint_off(const std::string& text) {
+/// Parses "elbow=32.9": joint and mean error in degrees.
+std::pair<std::string, double> parse_joint_error(const std::string& text) {
   const auto equals = text.find('=');
   double degrees = 0;
   if (equals == std::string::npos || !CLI::detail::lexical_cast(text.substr(equals + 1), degrees) ||
@@ -100,20 +103,23 @@ std::pair<std::string, double> joint_off(const std::string& text) {
 }
 
 void add_perturb(CLI::App& calibrate, Chosen& chosen) {
-  auto o = std::make_shared<PerturbOptions>();
+  auto options = std::make_shared<PerturbOptions>();
   auto* perturb = calibrate.add_subcommand(
       "perturb", "Write a robot.xml with chosen pose errors, to test a calibration");
-  add_poses(perturb, o->robot, o->poses);
-  perturb->add_option("--vary", o->choice, "file of the parameters to fit: <calibration><vary …/>…")
+  add_poses(perturb, options->robot, options->poses);
+  perturb
+      ->add_option("--vary", options->choice,
+                   "file of the parameters to fit: <calibration><vary …/>…")
       ->required();
-  auto off = std::make_shared<std::vector<std::string>>();
-  perturb->add_option("--off", *off, "JOINT=DEGREES …: mean error")->required();
-  perturb->add_option("--seed", o->seed, "seed of the random numbers")->capture_default_str();
-  perturb->add_option("--out", o->out, "the new robot.xml")->required();
+  auto joint_errors = std::make_shared<std::vector<std::string>>();
+  perturb->add_option("--off", *joint_errors, "JOINT=DEGREES …: mean error")->required();
+  perturb->add_option("--seed", options->seed, "seed of the random numbers")->capture_default_str();
+  perturb->add_option("--out", options->out, "the new robot.xml")->required();
   perturb->callback([=, &chosen] {
     chosen = [=] {
-      for (const std::string& one : *off) o->off_deg.insert(joint_off(one));
-      return calibrate_perturb(*o, std::cout);
+      for (const std::string& text : *joint_errors)
+        options->pose_errors_deg.insert(parse_joint_error(text));
+      return calibrate_perturb(*options, std::cout);
     };
   });
 }

@@ -15,8 +15,8 @@ namespace {
 
 namespace shaping = sim::loop_shaping;
 
-/// Sets the model to a pose at rest.
-void place(sim::Musculoskeletal& model, const sim::Pose& pose) {
+/// Sets the model to a pose, with all velocities zero.
+void set_pose(sim::Musculoskeletal& model, const sim::Pose& pose) {
   std::vector<sim::JointReading> readings;
   for (std::size_t j = 0; j < pose.size(); ++j) {
     readings.push_back(sim::initial_reading(model.tree().joints[j]));
@@ -26,18 +26,20 @@ void place(sim::Musculoskeletal& model, const sim::Pose& pose) {
 }
 
 bool print_posture(const std::string& name, const shaping::LoopCheck& check, std::ostream& out) {
-  const bool stable = check.slowest_per_s < 0;
+  const bool is_stable = check.slowest_per_s < 0;
   out << fmt::format("{:<10} {:>8} {:>14.2f} {:>13.2f}   ", name,
-                     stable ? fmt::format("{:.3f}", check.margin) : "unstable", check.slowest_per_s,
-                     check.max_sensitivity);
+                     is_stable ? fmt::format("{:.3f}", check.margin) : "unstable",
+                     check.slowest_per_s, check.max_sensitivity);
   for (const double hz : check.crossover_Hz) out << fmt::format(" {:.2f}", hz);
   out << '\n';
-  return stable;
+  return is_stable;
 }
 
 PlotScript script(const shaping::JointLoops& loops, const std::string& robot) {
   std::string data = "$loops << E\n";
-  for (const auto& p : shaping::loop_curves(loops, 0.05, 50, 200))
+  constexpr double from_Hz = 0.05, to_Hz = 50;  // chosen
+  constexpr int points = 200;
+  for (const auto& p : shaping::loop_curves(loops, from_Hz, to_Hz, points))
     data +=
         fmt::format("{:.5g} {:.5g} {:.5g} {:.5g} {:.5g} {:.5g} {:.5g}\n", p.Hz, p.desired.largest,
                     p.desired.smallest, p.achieved.largest, p.achieved.smallest, p.s, p.t);
@@ -70,15 +72,15 @@ int model_loops(const ModelLoopsOptions& options, std::ostream& out) {
       "{:<10} {:>8} {:>14} {:>13}    {}\n",
       robot.name, loops.robust.margin, loops.robust.greatest_margin, "posture", "margin",
       "slowest pole", "sensitivity", "crossover by joint, Hz");
-  bool stable = print_posture("start", checked(loops), out);
+  bool is_stable = print_posture("start", checked(loops), out);
   if (!options.poses.empty())
     for (const auto& [time_s, pose] : sim::poses_of(recording::read_table(options.poses), robot)) {
-      place(model, pose);
+      set_pose(model, pose);
       const auto check = checked(moved(loops, model, shape));
-      stable = print_posture(fmt::format("{:.2f} s", time_s), check, out) && stable;
+      is_stable = print_posture(fmt::format("{:.2f} s", time_s), check, out) && is_stable;
     }
   if (!options.out.empty()) draw(script(loops, robot.name), options.out);
-  return stable ? 0 : 1;
+  return is_stable ? 0 : 1;
 }
 
 }  // namespace launch

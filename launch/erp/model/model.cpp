@@ -65,25 +65,26 @@ std::string description(const erp::Drive& drive) {
 }  // namespace
 
 ModelProperties properties_of(const erp::Robot& robot) {
-  ModelProperties f{.name = robot.name};
-  for (const auto& body : robot.bodies()) ++f.bodies, f.mass_kg += mass_of(body).mass_kg;
+  ModelProperties properties{.name = robot.name};
+  for (const auto& body : robot.bodies())
+    ++properties.bodies, properties.mass_kg += mass_of(body).mass_kg;
   for (const auto& joint : robot.joints())
-    ++f.joints, f.degrees_of_freedom += sim::coordinates_of(joint.type);
+    ++properties.joints, properties.degrees_of_freedom += sim::coordinates_of(joint.type);
   std::set<int> ecus;
   for (const auto& actuator : robot.actuators) {
-    ++f.actuators;
-    f.muscles += !actuator.tendon.path.empty();
+    ++properties.actuators;
+    properties.muscles += !actuator.tendon.path.empty();
     ecus.insert(actuator.ecu);
   }
-  f.drives = static_cast<int>(robot.drives.size());
-  f.ecus = static_cast<int>(ecus.size());
-  f.buses = ecus.empty() ? 0 : static_cast<int>(robot.buses().size());
-  return f;
+  properties.drives = static_cast<int>(robot.drives.size());
+  properties.ecus = static_cast<int>(ecus.size());
+  properties.buses = ecus.empty() ? 0 : static_cast<int>(robot.buses().size());
+  return properties;
 }
 
 int model_info(const std::string& robot_file, bool json, std::ostream& out) {
   const erp::Robot robot = erp::read_robot(robot_file);
-  const ModelProperties f = properties_of(robot);
+  const ModelProperties properties = properties_of(robot);
   out << fmt::format(
       fmt::runtime(json ? "{{\"robot\": {}, \"bodies\": {}, \"joints\": {}, "
                           "\"degrees_of_freedom\": {}, \"actuators\": {}, \"muscles\": {}, "
@@ -92,8 +93,9 @@ int model_info(const std::string& robot_file, bool json, std::ostream& out) {
                           "degrees of freedom  {}\nactuators           {}\nmuscles             {}\n"
                           "mass                {:.6g} kg\nECUs                {}\n"
                           "buses               {}\ndrives              {}\n"),
-      json ? nlohmann::json(f.name).dump() : f.name, f.bodies, f.joints, f.degrees_of_freedom,
-      f.actuators, f.muscles, f.mass_kg, f.ecus, f.buses, f.drives);
+      json ? nlohmann::json(properties.name).dump() : properties.name, properties.bodies,
+      properties.joints, properties.degrees_of_freedom, properties.actuators, properties.muscles,
+      properties.mass_kg, properties.ecus, properties.buses, properties.drives);
   for (const erp::Drive& drive : robot.drives)
     if (!json) out << fmt::format("drive               {}\n", description(drive));
   if (!json)
@@ -105,8 +107,8 @@ int model_info(const std::string& robot_file, bool json, std::ostream& out) {
 int model_export(const std::string& robot_file, const std::string& out_file) {
   const erp::Robot robot = erp::read_robot(robot_file);
   write_file(out_file, in_format_of(out_file, robot));
-  const bool skeleton = out_file.ends_with(".urdf") || out_file.ends_with(".sdf");
-  if (skeleton && !robot.actuators.empty())
+  const bool is_skeleton_format = out_file.ends_with(".urdf") || out_file.ends_with(".sdf");
+  if (is_skeleton_format && !robot.actuators.empty())
     fmt::print(stderr,
                "{} contains only the skeleton; the format cannot represent {} actuators with "
                "tendons and sensors\n",
@@ -125,11 +127,11 @@ int model_import(const std::string& foreign_file, const std::string& robot_file)
 }
 
 int model_effects(const std::string& part, std::ostream& out) {
-  bool any = false;
+  bool is_listed = false;
   for (sim::effects::AnyEffect effect : sim::effects::library()) {
     const sim::effects::About& about = sim::effects::about(effect);
     if (about.type.find(part) == about.type.npos) continue;
-    any = true;
+    is_listed = true;
     const bool on_robot = about.seat == sim::effects::Seat::robot;
     out << fmt::format("{}  on: {}  excitation: {}\n", about.type,
                        on_robot ? "robot, by its name" : word(about.seat), about.shown_by);
@@ -137,7 +139,7 @@ int model_effects(const std::string& part, std::ostream& out) {
       out << fmt::format("    {:<26} {:>8} … {:<8} default {}{}\n", p.name, p.bounds.low,
                          p.bounds.high, *p.value, p.fitted ? "" : ", not fitted by erp gap");
   }
-  if (!any)
+  if (!is_listed)
     throw std::invalid_argument("no effect type contains \"" + part +
                                 "\"; erp model effects lists all");
   return 0;

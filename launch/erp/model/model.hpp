@@ -21,14 +21,14 @@ ModelProperties properties_of(const erp::Robot& robot);
 /// Prints one line per property, or one JSON object. Throws xml::Errors. Returns the exit code.
 int model_info(const std::string& robot_file, bool json, std::ostream& out);
 
-/// Prints the effects whose type contains `part`: what they act on, the excitation that shows them,
-/// and their parameters with bounds. Throws std::invalid_argument if there is none. Returns the
-/// exit code.
+/// Prints the effects with `part` in their type: the part of the robot that they act on, the
+/// excitation that reveals them, and their parameters with bounds. Throws std::invalid_argument if
+/// there is no such effect. Returns the exit code.
 int model_effects(const std::string& part, std::ostream& out);
 
-/// Prints the pretensions that balance the starting pose against gravity, as a part to include in
+/// Prints the pretensions that hold the starting pose against gravity, as a part to include in
 /// robot.xml. No tension is below `least_N`, and all are as close to `rest_N` as possible. Prints
-/// the unbalanced torque on stderr. Throws xml::Errors. Returns the exit code.
+/// the remaining unbalanced torque on stderr. Throws xml::Errors. Returns the exit code.
 int model_balance(const std::string& robot_file, double least_N, double rest_N, std::ostream& out);
 
 /// Prints the line lengths for the joint angles of a table or recording, as a trajectory for
@@ -37,7 +37,8 @@ int model_lengths(const std::string& robot_file, const std::string& table_file, 
                   double rest_N, std::ostream& out);
 
 /// Writes the robot of a .dae file, or the skeleton of a .urdf or .sdf file, as robot.xml. Throws
-/// as formats::from_urdf does, and xml::Errors for an invalid robot. Returns the exit code.
+/// the exceptions of formats::from_urdf, and xml::Errors for an invalid robot. Returns the exit
+/// code.
 int model_import(const std::string& foreign_file, const std::string& robot_file);
 
 /// Writes the robot in the format of the file name extension: .dae, .mjcf.xml, .urdf, .sdf, or .svg
@@ -53,8 +54,8 @@ struct ModelLoopsOptions {
 };
 
 /// Prints the stability margin of the design and of each posture; draws the singular values of the
-/// loops. Throws xml::Errors, RecordingError, std::invalid_argument. Returns the exit code: 0
-/// stable in all postures, 1 not.
+/// loops. Throws xml::Errors, RecordingError, std::invalid_argument. Returns 0 if the loops are
+/// stable in all postures, otherwise 1.
 int model_loops(const ModelLoopsOptions& options, std::ostream& out);
 
 }  // namespace launch

@@ -17,7 +17,7 @@ namespace {
 namespace muscle_networks = sim::muscle_networks;
 using muscle_networks::LengthSamples;
 
-/// Training samples, and validation samples from the ends of the recordings.
+/// Training samples, and validation samples, which come from the end of each recording.
 struct Split {
   LengthSamples train, validate;
 };
@@ -25,33 +25,34 @@ struct Split {
 void append(LengthSamples& to, const LengthSamples& from, std::size_t begin, std::size_t end) {
   to.joints.insert(to.joints.end(), from.joints.begin() + std::ptrdiff_t(begin),
                    from.joints.begin() + std::ptrdiff_t(end));
-  const auto old = to.length_m.cols(), more = std::ptrdiff_t(end - begin);
-  to.length_m.conservativeResize(from.length_m.rows(), old + more);
-  to.length_m.rightCols(more) = from.length_m.middleCols(std::ptrdiff_t(begin), more);
+  const auto old_count = to.length_m.cols(), new_count = std::ptrdiff_t(end - begin);
+  to.length_m.conservativeResize(from.length_m.rows(), old_count + new_count);
+  to.length_m.rightCols(new_count) = from.length_m.middleCols(std::ptrdiff_t(begin), new_count);
 }
 
 Split read(const erp::Robot& robot, const ModelMusclesOptions& options) {
   Split split;
   for (const std::string& file : options.recordings) try {
       const auto samples = muscle_networks::samples_of(robot, recording::read_table(file));
-      const auto all = samples.joints.size();
-      const auto train = all - std::size_t(options.held_out * double(all));
-      append(split.train, samples, 0, train);
-      append(split.validate, samples, train, all);
+      const auto sample_count = samples.joints.size();
+      const auto train_count = sample_count - std::size_t(options.held_out * double(sample_count));
+      append(split.train, samples, 0, train_count);
+      append(split.validate, samples, train_count, sample_count);
     } catch (const std::invalid_argument& error) {
       throw std::invalid_argument(file + ": " + error.what());
     }
   return split;
 }
 
-/// Online training with the same samples in sequence, without prior knowledge.
+/// Trains a network online with the same samples in sequence, without prior knowledge.
 muscle_networks::LengthLearner trained_online(const erp::Robot& robot,
                                               const LengthSamples& samples) {
   const sim::Musculoskeletal model(robot);
-  constexpr int units = 400;  // chosen: no prior knowledge, and no limit on time
+  constexpr int units = 400;        // chosen: there is no limit on computing time
+  constexpr double noise_m = 1e-4;  // of the measured lengths; chosen
   muscle_networks::LengthLearner learner({model.tree().joints, model.skeleton()},
                                          samples.length_m.rows(),
-                                         {.units = units, .noise_m = 1e-4});
+                                         {.units = units, .noise_m = noise_m});
   for (std::size_t k = 0; k < samples.joints.size(); ++k)
     learner.add_sample(samples.joints[k], samples.length_m.col(std::ptrdiff_t(k)));
   return learner;
@@ -88,9 +89,9 @@ void print_torques(const erp::Robot& robot, const muscle_networks::LearnedMuscle
                    const LengthSamples& samples, const ModelMusclesOptions& options,
                    std::ostream& out) {
   constexpr std::size_t count = 5000;  // chosen: with 1000 the result has an uncertainty of 10 %
-  const auto drawn = muscle_networks::postures(robot, count, options.over);
+  const auto postures = muscle_networks::postures(robot, count, options.comparison);
   const auto error_percent = [&](const muscle_networks::JacobianAt& jacobian) {
-    return 100 * muscle_networks::torque_error(robot, drawn, jacobian).share;
+    return 100 * muscle_networks::torque_error(robot, postures, jacobian).share;
   };
   muscle_networks::LearnedLengths lengths(robot, trained);
   auto learner = trained_online(robot, samples);
@@ -122,12 +123,13 @@ int model_motion(const std::string& robot_file, const muscle_networks::JointMoti
 int model_muscles(const ModelMusclesOptions& options, std::ostream& out) {
   const erp::Robot robot = erp::read_robot(options.robot);
   const Split split = read(robot, options);
-  muscle_networks::LearnOptions how;
-  how.units = options.units;
-  how.progress = [](std::size_t done, std::size_t of) {
-    fmt::print(stderr, "\r{} of {} muscles trained{}", done, of, done == of ? "\n" : "");
+  muscle_networks::LearnOptions learn_options;
+  learn_options.units = options.units;
+  learn_options.progress = [](std::size_t trained_count, std::size_t total) {
+    fmt::print(stderr, "\r{} of {} muscles trained{}", trained_count, total,
+               trained_count == total ? "\n" : "");
   };
-  const auto trained = muscle_networks::learn(robot, split.train, how);
+  const auto trained = muscle_networks::learn(robot, split.train, learn_options);
   if (!options.out.empty()) write_file(options.out, xml::write(trained));
   print_lengths(robot, trained, split, out);
   print_torques(robot, trained, split.train, options, out);

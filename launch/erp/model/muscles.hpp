@@ -6,8 +6,8 @@
 #include "sim/learning/muscle_networks/babble.hpp"
 #include "sim/learning/muscle_networks/workspace.hpp"
 
-/// `erp model babble`, `erp model motion`, `erp model muscles`: networks that learn the muscle
-/// lengths as a function of the posture, and trajectories for their training data.
+/// `erp model babble`, `erp model motion`, `erp model muscles`: networks for the muscle lengths as
+/// a function of the posture, and trajectories for their training data.
 namespace launch {
 
 /// Prints a trajectory of random tendon forces for `target`. Throws xml::Errors. Returns the exit
@@ -23,18 +23,18 @@ int model_motion(const std::string& robot_file,
 struct ModelMusclesOptions {
   std::string robot;
   std::vector<std::string> recordings;
-  std::string out;  ///< new file of networks; empty: none is written
-  int units = 16;   ///< hidden units of each muscle's network
+  std::string out;  ///< new file of networks; empty: no file
+  int units = 16;   ///< hidden units in the network of each muscle
   double held_out =
       0.1;  ///< fraction at the end of each recording that is used for validation only
-  sim::muscle_networks::WorkspaceOptions over{
+  sim::muscle_networks::WorkspaceOptions comparison{
       .seed = 4711};  ///< postures for the comparison of torques
 };
 
-/// Trains one network per muscle. Prints its length error, and the torque error of its Jacobian
-/// relative to robot.xml over postures that the muscles can hold; the latter also for a network
-/// trained online with the same samples. Throws xml::Errors, RecordingError, WriteError,
-/// std::invalid_argument. Returns the exit code.
+/// Trains one network per muscle. Prints the length errors, and the torque error of the learned
+/// Jacobian relative to that of robot.xml, over postures that the muscles can hold. Prints the
+/// torque error also for a network that is trained online with the same samples. Throws
+/// xml::Errors, RecordingError, WriteError, std::invalid_argument. Returns the exit code.
 int model_muscles(const ModelMusclesOptions& options, std::ostream& out);
 
 }  // namespace launch

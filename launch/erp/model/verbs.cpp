@@ -13,16 +13,16 @@ namespace launch {
 
 namespace {
 
-/// Verbs that use the balance of tensions and gravity.
+/// Adds the verbs that compute the balance of tensions and gravity.
 void add_statics(CLI::App& model, Chosen& chosen) {
   auto robot = std::make_shared<std::string>(), table = std::make_shared<std::string>();
   auto out = std::make_shared<std::string>();
-  auto least = std::make_shared<double>(5), rest = std::make_shared<double>(10);
+  auto min_N = std::make_shared<double>(5), rest_N = std::make_shared<double>(10);
   const auto add_options = [=](CLI::App* verb) {
-    verb->add_option("--least", *least, "smallest tension, N")
+    verb->add_option("--least", *min_N, "smallest tension, N")
         ->capture_default_str()
         ->check(CLI::NonNegativeNumber);
-    verb->add_option("--rest", *rest, "preferred tension, N")
+    verb->add_option("--rest", *rest_N, "preferred tension, N")
         ->capture_default_str()
         ->check(CLI::NonNegativeNumber);
     verb->add_option("--out", *out, "output file (default: stdout)");
@@ -34,7 +34,8 @@ void add_statics(CLI::App& model, Chosen& chosen) {
   add_options(balance);
   balance->callback([=, &chosen] {
     chosen = [=] {
-      return write_output(*out, [=](auto& to) { return model_balance(*robot, *least, *rest, to); });
+      return write_output(*out,
+                          [=](auto& to) { return model_balance(*robot, *min_N, *rest_N, to); });
     };
   });
 
@@ -49,7 +50,7 @@ void add_statics(CLI::App& model, Chosen& chosen) {
   lengths->callback([=, &chosen] {
     chosen = [=] {
       return write_output(
-          *out, [=](auto& to) { return model_lengths(*robot, *table, *least, *rest, to); });
+          *out, [=](auto& to) { return model_lengths(*robot, *table, *min_N, *rest_N, to); });
     };
   });
 }
@@ -69,22 +70,22 @@ void add_loops(CLI::App& model, Chosen& chosen) {
 
 void add_babble(CLI::App& model, Chosen& chosen) {
   auto robot = std::make_shared<std::string>(), out = std::make_shared<std::string>();
-  auto how = std::make_shared<sim::muscle_networks::BabbleOptions>();
+  auto options = std::make_shared<sim::muscle_networks::BabbleOptions>();
   auto* babble = model.add_subcommand(
       "babble", "Print random tendon forces, as a trajectory for `target`, for training data");
   babble->add_option("robot", *robot, "robot.xml")->required();
-  babble->add_option("--seconds", how->duration_s, "duration, s")
+  babble->add_option("--seconds", options->duration_s, "duration, s")
       ->capture_default_str()
       ->check(above_zero());
-  babble->add_option("--seed", how->seed, "random seed")->capture_default_str();
-  babble->add_option("--least", how->least_N, "smallest tension, N")->capture_default_str();
-  babble->add_option("--mean", how->mean_N, "mean tension above the smallest, N")
+  babble->add_option("--seed", options->seed, "random seed")->capture_default_str();
+  babble->add_option("--least", options->least_N, "smallest tension, N")->capture_default_str();
+  babble->add_option("--mean", options->mean_N, "mean tension above the smallest, N")
       ->capture_default_str()
       ->check(above_zero());
   babble->add_option("--out", *out, "output file (default: stdout)");
   babble->callback([=, &chosen] {
     chosen = [=] {
-      return write_output(*out, [=](auto& to) { return model_babble(*robot, *how, to); });
+      return write_output(*out, [=](auto& to) { return model_babble(*robot, *options, to); });
     };
   });
 }
@@ -131,7 +132,7 @@ void add_muscles(CLI::App& model, Chosen& chosen) {
       ->capture_default_str()
       ->check(CLI::Range(0.0, 0.9));
   muscles
-      ->add_option("--ball", options->over.ball_rad,
+      ->add_option("--ball", options->comparison.ball_rad,
                    "largest rotation of ball joints in the comparison of torques, rad")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 3.0));

@@ -11,8 +11,8 @@ namespace launch {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::size_t longest_name = 32;  // `component` is a string<32> in messages
-constexpr auto reserved = std::to_array<std::string_view>(
+constexpr std::size_t max_name_length = 32;  // the field `component` of messages is a string<32>
+constexpr auto reserved_names = std::to_array<std::string_view>(
     {"sim", "plant", "gateway", "replay", "logger", "reference", "target", "length_control",
      "force_control", "gap_monitor", "controller", "erp", "node", "main", "test"});
 constexpr auto keywords = std::to_array<std::string_view>(
@@ -25,11 +25,11 @@ constexpr auto keywords = std::to_array<std::string_view>(
      "typename",  "union",   "unsigned", "using",   "virtual",   "void",   "volatile", "while"});
 
 bool is_snake_case(const std::string& name) {
-  const auto allowed = [](char c) {
+  const auto is_allowed = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
   };
   return !name.empty() && name.front() >= 'a' && name.front() <= 'z' && name.back() != '_' &&
-         name.find("__") == name.npos && std::all_of(name.begin(), name.end(), allowed);
+         name.find("__") == name.npos && std::all_of(name.begin(), name.end(), is_allowed);
 }
 
 void check_name(const std::string& name) {
@@ -37,19 +37,19 @@ void check_name(const std::string& name) {
     throw std::invalid_argument("\"" + name + "\" cannot be the name of a controller: " + reason);
   };
   if (!is_snake_case(name)) reject("use lower-case words joined by _, such as my_controller");
-  if (name.size() > longest_name) reject("it has more than 32 characters");
+  if (name.size() > max_name_length) reject("it has more than 32 characters");
   if (std::find(keywords.begin(), keywords.end(), name) != keywords.end())
     reject("it is a keyword of C++");
-  if (std::find(reserved.begin(), reserved.end(), name) != reserved.end())
+  if (std::find(reserved_names.begin(), reserved_names.end(), name) != reserved_names.end())
     reject("a program of this name exists already");
 }
 
-std::string filled(std::string text, const std::string& name) {
+std::string with_names(std::string text, const std::string& name) {
   for (const auto& [placeholder, value] :
        {std::pair<std::string, std::string>{"@name@", name}, {"@Class@", class_name(name)}})
-    for (auto at = text.find(placeholder); at != text.npos;
-         at = text.find(placeholder, at + value.size()))
-      text.replace(at, placeholder.size(), value);
+    for (auto position = text.find(placeholder); position != text.npos;
+         position = text.find(placeholder, position + value.size()))
+      text.replace(position, placeholder.size(), value);
   return text;
 }
 
@@ -70,11 +70,11 @@ void write(const fs::path& path, const std::string& text) {
 
 std::string class_name(const std::string& snake_case_name) {
   std::string result;
-  bool start = true;
+  bool is_word_start = true;
   for (const char c : snake_case_name) {
     if (c != '_')
-      result += start ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
-    start = c == '_';
+      result += is_word_start ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
+    is_word_start = c == '_';
   }
   return result;
 }
@@ -86,12 +86,12 @@ std::vector<fs::path> new_controller(const std::string& name, const fs::path& fo
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw std::runtime_error(folder.string() + ": " + error.message());
-  std::vector<fs::path> written;
+  std::vector<fs::path> files;
   for (const auto& [file, text] : controller_templates()) {
-    written.push_back(folder / file_name(file, name));
-    write(written.back(), filled(text, name));
+    files.push_back(folder / file_name(file, name));
+    write(files.back(), with_names(text, name));
   }
-  return written;
+  return files;
 }
 
 }  // namespace launch

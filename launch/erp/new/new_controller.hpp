@@ -8,8 +8,8 @@
 /// installed package.
 namespace launch {
 
-/// A file of the project with the placeholders `@name@` and `@Class@`: a file of
-/// launch/erp/new/templates/controller, compiled into `erp`.
+/// A file of launch/erp/new/templates/controller, compiled into `erp`, with the placeholders
+/// `@name@` and `@Class@`.
 struct Template {
   const char* file;
   const char* text;
@@ -19,7 +19,7 @@ std::span<const Template> controller_templates();
 /// `tension_hold` → `TensionHold`.
 std::string class_name(const std::string& snake_case_name);
 
-/// Writes the project and returns its files. `folder` must not exist or be empty. Throws
+/// Writes the project and returns its files. `folder` must be empty or must not exist. Throws
 /// std::invalid_argument for a name that is not snake_case, is too long for the bus, or is the name
 /// of an existing component; std::runtime_error if a file cannot be written.
 std::vector<std::filesystem::path> new_controller(const std::string& name,

@@ -15,14 +15,14 @@ using recording::Column;
 
 struct Effort {
   std::string actuator;
-  double least_N = 0, mean_N = 0, largest_N = 0;
-  double ripple_N = 0;  ///< RMS of the tension about a straight line fitted over 0.1 s: oscillation
+  double min_N = 0, mean_N = 0, max_N = 0;
+  double ripple_N = 0;  ///< oscillation: RMS of the tension about a line fitted over `line_span_s`
   double energy_J = 0;  ///< ∫ V i dt: net energy from the supply
 };
 
 constexpr double line_span_s = 0.1;  // chosen
 
-/// Sums over a moving window, for the line fitted to it.
+/// Sums over a moving window, for fitting a line: n, Σt, Σt², Σy, Σty.
 struct Window {
   double n = 0, t = 0, tt = 0, y = 0, ty = 0;
   void add(double time_s, double value, double sign) {
@@ -30,13 +30,15 @@ struct Window {
     y += sign * value, ty += sign * time_s * value;
   }
   double line_at(double time_s) const {
-    const double spread = n * tt - t * t;
-    const double slope = spread > 1e-9 * n * tt ? (n * ty - t * y) / spread : 0;
+    const double determinant = n * tt - t * t;
+    constexpr double rounding = 1e-9;  // relative; below it, all times are equal
+    const double slope = determinant > rounding * n * tt ? (n * ty - t * y) / determinant : 0;
     return (y + slope * (n * time_s - t)) / n;
   }
 };
 
-/// RMS about the line fitted to the values within ± `line_span_s` / 2.
+/// RMS deviation of each value from the line fitted to the values within ± `line_span_s` / 2 around
+/// it.
 double ripple(const std::vector<double>& time_s, const std::vector<double>& values) {
   double squares = 0;
   Window window;
@@ -64,7 +66,7 @@ Effort effort_of(const recording::Table& table, const std::string& actuator, dou
     if (time.values[k] < from_s) continue;
     if (const double f = tension.values[k]; !std::isnan(f)) {
       time_s.push_back(time.values[k]), tension_N.push_back(f);
-      e.least_N = std::min(e.least_N, f), e.largest_N = std::max(e.largest_N, f);
+      e.min_N = std::min(e.min_N, f), e.max_N = std::max(e.max_N, f);
       e.mean_N += f;
     }
     if (!voltage || !current || k + 1 == time.values.size()) continue;
@@ -76,7 +78,7 @@ Effort effort_of(const recording::Table& table, const std::string& actuator, dou
   return e;
 }
 
-/// Ignores rows before `from_s` and empty cells.
+/// The effort of each actuator with a tension. Ignores rows before `from_s` and empty cells.
 std::vector<Effort> efforts(const recording::Table& table, double from_s) {
   std::vector<Effort> all;
   for (const std::string& actuator : table.owners("tension_N"))
@@ -93,7 +95,7 @@ int log_effort(const std::string& path, double from_s, std::ostream& out) {
     double energy_J = 0;
     for (const Effort& e : efforts(recording::read_table(path), from_s)) {
       out << fmt::format("{:<24} {:>10.2f} {:>10.2f} {:>10.2f} {:>10.3f} {:>12.3f}\n", e.actuator,
-                         e.least_N, e.mean_N, e.largest_N, e.ripple_N, e.energy_J);
+                         e.min_N, e.mean_N, e.max_N, e.ripple_N, e.energy_J);
       energy_J += e.energy_J;
     }
     out << fmt::format("{:<24} {:>56.3f}\n", "total", energy_J);

@@ -14,8 +14,9 @@
 namespace launch {
 namespace {
 
-constexpr double period_s = 0.002, degrees = 180 / std::numbers::pi;
-constexpr std::size_t most_points = 2000;  // per curve
+constexpr double period_s = 0.002;  // between two frames: the control cycle of the ECUs
+constexpr double degrees = 180 / std::numbers::pi;
+constexpr std::size_t max_points_per_curve = 2000;  // more than a screen has columns; chosen
 
 using Position = std::array<double, 4>;
 
@@ -23,21 +24,22 @@ erp::JointType type_of(int dof) {
   return dof == 3 ? erp::JointType::spherical : erp::JointType::revolute;
 }
 
-/// The rotation vector u of q₁ ⊖ q₀.
+/// The rotation vector, in rad, that turns `from` into `to`; of a revolute joint the difference of
+/// angles in [0].
 std::array<double, 3> difference(int dof, const Position& from, const Position& to) {
   return sim::displacement(type_of(dof), from, to);
 }
 
-/// The joint angle, or the rotation vector of a ball joint from its zero pose.
-std::array<double, 3> angles(int dof, const Position& at) {
-  return difference(dof, dof == 3 ? Position{1, 0, 0, 0} : Position{}, at);
+/// The joint angle in [0], or the rotation vector of a spherical joint from its zero pose, in rad.
+std::array<double, 3> angles(int dof, const Position& position) {
+  return difference(dof, dof == 3 ? Position{1, 0, 0, 0} : Position{}, position);
 }
 
 std::string curve(const recording::JointTrack& track, std::size_t axis) {
-  const std::size_t stride = 1 + track.at.size() / most_points;
+  const std::size_t stride = 1 + track.positions.size() / max_points_per_curve;
   std::string points;
   std::size_t k = 0;
-  for (const auto& [sequence, position] : track.at)
+  for (const auto& [sequence, position] : track.positions)
     if (k++ % stride == 0)
       points += fmt::format("{:.4f} {:.5f}\n", period_s * static_cast<double>(sequence),
                             degrees * angles(track.dof, position)[axis]);
@@ -49,19 +51,19 @@ PlotScript script(const recording::JointTracks& actual, const recording::JointTr
   PlotScript plot;
   std::string data, panels;
   for (const auto& [joint, track] : actual) {
-    const auto other = desired.find(joint);
-    if (other == desired.end()) continue;
+    const auto desired_track = desired.find(joint);
+    if (desired_track == desired.end()) continue;
     for (std::size_t axis = 0; axis < (track.dof == 3 ? 3U : 1U); ++axis) {
       const int n = plot.panels++;
       data += fmt::format("$actual{} << E\n{}E\n$desired{} << E\n{}E\n", n, curve(track, axis), n,
-                          curve(other->second, axis));
+                          curve(desired_track->second, axis));
       panels += fmt::format(
           "set ylabel '{}{}  [°]'\n"
           "plot $actual{} with lines lc rgb '#0072B2' lw 2 title '{}', $desired{} with lines dt 2 "
           "lw 2 "
           "lc rgb '#D55E00' title '{}'\n",
-          joint, track.dof == 3 ? std::string(" ") + "xyz"[axis] : "", n, options.of, n,
-          options.against);
+          joint, track.dof == 3 ? std::string(" ") + "xyz"[axis] : "", n, options.source, n,
+          options.reference_source);
     }
   }
   plot.commands = data + "set grid\nset key outside right\nset multiplot layout " +
@@ -72,8 +74,8 @@ PlotScript script(const recording::JointTracks& actual, const recording::JointTr
 
 void print(const std::vector<JointError>& errors, const LogJointsOptions& options,
            std::ostream& out) {
-  out << fmt::format("{} against {}\n{:<24} {:>8} {:>12} {:>12} {:>10}\n", options.of,
-                     options.against, "joint", "frames", "RMS error", "largest", "at");
+  out << fmt::format("{} against {}\n{:<24} {:>8} {:>12} {:>12} {:>10}\n", options.source,
+                     options.reference_source, "joint", "frames", "RMS error", "largest", "at");
   for (const JointError& e : errors)
     out << fmt::format("{:<24} {:>8} {:>11.3f}° {:>11.3f}° {:>8.2f} s\n", e.joint, e.frames,
                        degrees * e.rms_rad, degrees * e.largest_rad, e.largest_at_s);
@@ -85,13 +87,13 @@ std::vector<JointError> joint_errors(const recording::JointTracks& actual,
                                      const recording::JointTracks& desired, double from_s) {
   std::vector<JointError> errors;
   for (const auto& [joint, track] : actual) {
-    const auto other = desired.find(joint);
-    if (other == desired.end()) continue;
+    const auto desired_track = desired.find(joint);
+    if (desired_track == desired.end()) continue;
     JointError e{joint};
-    for (const auto& [sequence, position] : track.at) {
-      const auto same_frame = other->second.at.find(sequence);
+    for (const auto& [sequence, position] : track.positions) {
+      const auto same_frame = desired_track->second.positions.find(sequence);
       const double time_s = period_s * static_cast<double>(sequence);
-      if (same_frame == other->second.at.end() || time_s < from_s) continue;
+      if (same_frame == desired_track->second.positions.end() || time_s < from_s) continue;
       const auto u = difference(track.dof, position, same_frame->second);
       const double error_rad = std::hypot(u[0], u[1], u[2]);
       e.rms_rad += error_rad * error_rad;
@@ -107,8 +109,8 @@ std::vector<JointError> joint_errors(const recording::JointTracks& actual,
 int log_joints(const std::string& path, const LogJointsOptions& options, std::ostream& out) {
   return guarded([&] {
     const recording::McapReader reader(path);
-    const auto actual = recording::joint_tracks(reader, options.of);
-    const auto desired = recording::joint_tracks(reader, options.against);
+    const auto actual = recording::joint_tracks(reader, options.source);
+    const auto desired = recording::joint_tracks(reader, options.reference_source);
     print(joint_errors(actual, desired, options.from_s), options, out);
     if (!options.out.empty()) draw(script(actual, desired, options), options.out);
     return flush_or_throw(out);

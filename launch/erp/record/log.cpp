@@ -29,7 +29,7 @@ std::string bytes(std::size_t size) {
                          : decimal("%.1f MB", static_cast<double>(size) * 1e-6);
 }
 
-/// Sum over the channels of a topic, one per writer and type.
+/// Sums over the channels of a topic; each writer and type has its own channel.
 struct TopicRow {
   std::string type;
   std::uint64_t messages = 0, missing = 0, restarts = 0, writers = 0;
@@ -49,18 +49,19 @@ std::map<std::string, TopicRow> rows_of(const McapReader& reader) {
     ++row.writers;
     const auto schema = reader.schemas().find(channel.schema_id);
     row.type = schema == reader.schemas().end() ? "(no schema)" : schema->second.name;
-    const auto found = reader.statistics().find(id);
-    if (found == reader.statistics().end()) continue;
-    row.messages += found->second.messages;
-    row.missing += found->second.missing;
-    row.restarts += found->second.restarts;
-    row.first_ns = std::min(row.first_ns, found->second.first_ns);
-    row.last_ns = std::max(row.last_ns, found->second.last_ns);
+    const auto statistics = reader.statistics().find(id);
+    if (statistics == reader.statistics().end()) continue;
+    row.messages += statistics->second.messages;
+    row.missing += statistics->second.missing;
+    row.restarts += statistics->second.restarts;
+    row.first_ns = std::min(row.first_ns, statistics->second.first_ns);
+    row.last_ns = std::max(row.last_ns, statistics->second.last_ns);
   }
   return rows;
 }
 
-/// Duration of the longest topic; topics may have stamps of different clocks.
+/// Longest duration of a topic. Topics are not compared, because their stamps may come from
+/// different clocks.
 double duration_s(const std::map<std::string, TopicRow>& rows) {
   std::uint64_t longest_ns = 0;
   for (const auto& [topic, row] : rows)

@@ -3,12 +3,12 @@
 #include <string>
 #include <vector>
 
-/// `erp log info|export|recover|plot|effort`. All functions return 0 done, 1 result not written, 2 bad
-/// input, and print errors on stderr with place, value and remedy.
+/// `erp log info|export|recover|plot|effort`. All functions return 0 done, 1 result not written, 2
+/// bad input, and print errors on stderr with place, value and remedy.
 namespace launch {
 
 struct LogExportOptions {
-  std::string topic;  ///< empty: one row per sensor_frame; else the messages of this topic
+  std::string topic;  ///< empty: one row per sensor_frame; otherwise the messages of this topic
   std::string robot;  ///< empty: the only robot of the recording
 };
 
@@ -27,8 +27,8 @@ int log_info(const std::string& path, std::ostream& out);
 /// Prints the recording (MCAP or CSV) as CSV.
 int log_export(const std::string& path, std::ostream& out, const LogExportOptions& options = {});
 
-/// Copies all readable messages of `in` into the new file `out` and prints the losses to `report`.
-/// Returns 1 if there are no readable messages.
+/// Copies all readable messages of `in` into the new file `out` and prints the unreadable parts to
+/// `report`. Returns 1 if there are no readable messages.
 int log_recover(const std::string& in, const std::string& out, std::ostream& report);
 
 /// Draws the recording (MCAP or CSV) into `out`, an .svg or .png file. Needs gnuplot.

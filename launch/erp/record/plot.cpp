@@ -16,13 +16,13 @@ using recording::Column;
 using recording::Table;
 using Values = std::vector<double>;
 
-/// One panel: its signal, its unit, and the mode whose references it shows.
+/// One panel: its signal, its label with unit, and the control mode whose references it shows.
 struct Panel {
   const char* signal;
   const char* label;
   double scale;
   erp::Mode mode;
-  bool standard;  ///< shown by default
+  bool is_default;  ///< shown by default
 };
 constexpr double degrees = 180 / std::numbers::pi;
 constexpr Panel panels[] = {{"tension_N", "tension  [N]", 1, erp::Mode::force, true},
@@ -33,17 +33,16 @@ constexpr Panel panels[] = {{"tension_N", "tension  [N]", 1, erp::Mode::force, t
                             {"angle_rad", "joint angle  [°]", degrees, erp::Mode::off, true},
                             {"qw", "joint rotation  [°]", 2 * degrees, erp::Mode::off, true}};
 
-// Colours for colour-blind readers, after Okabe & Ito and Tol. Joints start at
+// Colours for colour-blind readers, by Okabe & Ito and by Tol. Colours of joints start at
 // `first_joint_colour`.
 constexpr std::array<unsigned, 12> colours{0x0072B2, 0xD55E00, 0x009E73, 0xCC79A7,
                                            0xE69F00, 0x56B4E9, 0x882255, 0x44AA99,
                                            0x999933, 0x332288, 0xAA4499, 0x661100};
 constexpr std::size_t first_joint_colour = 6;
-constexpr std::size_t most_points = 2000;  // per curve; more than a screen has columns
-constexpr std::size_t most_keys = 14;      // entries that fit beside one panel
+constexpr std::size_t max_points_per_curve = 2000;  // per curve; more than a screen has columns
+constexpr std::size_t max_legend_entries = 14;      // entries that fit beside one panel
 
-/// A literal string of gnuplot. Quotes and backquotes are replaced, so that the text is never
-/// executed.
+/// A literal gnuplot string. Quotes and backquotes are replaced: gnuplot never executes the text.
 std::string quoted(const std::string& text) {
   std::string out = "'";
   for (const char c : text) {
@@ -58,8 +57,8 @@ std::string rgb(unsigned colour) {
   std::snprintf(text.data(), text.size(), "'#%06X'", colour);
   return text.data();
 }
-/// Half the brightness, so that a reference is visible on top of the measured curve.
-unsigned dark(unsigned colour) { return (colour >> 1) & 0x7F7F7F; }
+/// Half the brightness: a reference is then visible on top of the measured curve.
+unsigned darkened(unsigned colour) { return (colour >> 1) & 0x7F7F7F; }
 
 std::string number(double value) {
   std::array<char, 32> text;
@@ -71,14 +70,14 @@ void put_point(std::string& out, double time_s, double value) {
   out += number(time_s) + " " + number(value) + "\n";
 }
 
-/// Minimum and maximum of each interval of samples, so that no peak is lost; a blank line where no
-/// value was measured.
-std::string thinned(const Values& time_s, const Values& values) {
-  const std::size_t stretch = std::max<std::size_t>(1, 2 * values.size() / most_points);
+/// Minimum and maximum of each interval of samples: no peak is lost. A blank line interrupts the
+/// curve where no value was measured.
+std::string decimated(const Values& time_s, const Values& values) {
+  const std::size_t interval = std::max<std::size_t>(1, 2 * values.size() / max_points_per_curve);
   std::string out;
-  for (std::size_t start = 0; start < values.size(); start += stretch) {
+  for (std::size_t start = 0; start < values.size(); start += interval) {
     std::size_t low = values.size(), high = values.size();
-    for (std::size_t i = start; i < std::min(start + stretch, values.size()); ++i) {
+    for (std::size_t i = start; i < std::min(start + interval, values.size()); ++i) {
       if (!std::isfinite(values[i])) continue;
       if (low == values.size() || values[i] < values[low]) low = i;
       if (high == values.size() || values[i] > values[high]) high = i;
@@ -93,7 +92,7 @@ std::string thinned(const Values& time_s, const Values& values) {
   return out;
 }
 
-/// Desired values in the unit of the panel: the reference while the ECU follows it, else the
+/// Desired values in the unit of the panel: the reference while the ECU follows it, otherwise the
 /// target.
 Values desired_values(const Table& table, const std::string& owner, const Panel& panel) {
   const auto pick = [&](const char* mode_name, const char* value_name, std::size_t row) {
@@ -121,10 +120,11 @@ Values measured_values(const Column& column, const Panel& panel) {
   return values;
 }
 
-bool chosen(const std::vector<std::string>& signals, const std::string& owner, const Panel& panel) {
-  if (signals.empty()) return panel.standard;
+bool is_selected(const std::vector<std::string>& signals, const std::string& owner,
+                 const Panel& panel) {
+  if (signals.empty()) return panel.is_default;
   return std::ranges::any_of(signals, [&](const std::string& signal) {
-    return (signal == owner && panel.standard) || signal == panel.signal ||
+    return (signal == owner && panel.is_default) || signal == panel.signal ||
            signal == owner + "." + panel.signal;
   });
 }
@@ -162,7 +162,7 @@ class Script {
 
  private:
   std::string block(const Values& values) {
-    const std::string points = thinned(time_s_, values);
+    const std::string points = decimated(time_s_, values);
     if (points.empty()) return {};
     const std::string name = "$d" + std::to_string(blocks_++);
     data_ += name + " << EOD\n" + points + "EOD\n";
@@ -172,19 +172,22 @@ class Script {
   void add(const Panel& panel, const std::vector<std::string>& signals) {
     constexpr auto* dashes = " with lines linewidth 1.3 dashtype (9,6) linecolor rgb ";
     const std::string_view signal = panel.signal;
-    const bool joint = signal == "angle_rad" || signal == "qw";
+    const bool is_joint = signal == "angle_rad" || signal == "qw";
     std::string measured, desired;
     std::size_t curve = 0;
     for (const std::string& owner : table_.owners(signal)) {
-      if (!chosen(signals, owner, panel)) continue;
+      if (!is_selected(signals, owner, panel)) continue;
       const Column& column = *table_.find(owner + "." + panel.signal);
       const std::string data = block(measured_values(column, panel));
       if (data.empty()) continue;
-      const unsigned colour = colours[(curve + (joint ? first_joint_colour : 0)) % colours.size()];
+      const unsigned colour =
+          colours[(curve + (is_joint ? first_joint_colour : 0)) % colours.size()];
       measured += (measured.empty() ? "" : ", ") + data + " with lines linewidth 2 linecolor rgb " +
-                  rgb(colour) + (curve < most_keys ? " title " + quoted(owner) : " notitle");
+                  rgb(colour) +
+                  (curve < max_legend_entries ? " title " + quoted(owner) : " notitle");
       const std::string reference = block(desired_values(table_, owner, panel));
-      if (!reference.empty()) desired += ", " + reference + dashes + rgb(dark(colour)) + " notitle";
+      if (!reference.empty())
+        desired += ", " + reference + dashes + rgb(darkened(colour)) + " notitle";
       ++curve;
     }
     if (measured.empty()) return;
@@ -201,17 +204,17 @@ class Script {
 
 /// Throws RecordingError if a requested signal matches no curve.
 void check_signals(const Table& table, const std::vector<std::string>& signals,
-                   const std::string& place) {
+                   const std::string& file) {
   for (const std::string& signal : signals) {
-    bool known = false;
+    bool is_found = false;
     std::string available;
     for (const Panel& panel : panels)
       for (const std::string& owner : table.owners(panel.signal)) {
-        known = known || chosen({signal}, owner, panel);
+        is_found = is_found || is_selected({signal}, owner, panel);
         available += (available.empty() ? "" : ", ") + owner + "." + panel.signal;
       }
-    if (!known)
-      throw recording::RecordingError(place + ": no signal \"" + signal + "\"; there are " +
+    if (!is_found)
+      throw recording::RecordingError(file + ": no signal \"" + signal + "\"; there are " +
                                       available);
   }
 }
@@ -219,12 +222,12 @@ void check_signals(const Table& table, const std::vector<std::string>& signals,
 }  // namespace
 
 PlotScript plot_script(const Table& table, const std::vector<std::string>& signals,
-                       const std::string& title, const std::string& place) {
-  check_signals(table, signals, place);
+                       const std::string& title, const std::string& file) {
+  check_signals(table, signals, file);
   const Script script(table, signals);
   if (script.empty())
     throw recording::RecordingError(
-        place + ": contains no samples of the signals; see erp log info " + place);
+        file + ": contains no samples of the signals; see erp log info " + file);
   return script.finish(title);
 }
 

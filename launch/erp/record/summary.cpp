@@ -38,8 +38,8 @@ struct TrackedActuator {
   Values time_s, target, measured;
 };
 
-/// Columns of the desired value of an actuator: the published target, or without one the reference
-/// of the ECU. A voltage is not a target, since no control loop tracks it.
+/// Columns of the desired value of an actuator: the published target, or without a target the
+/// reference of the ECU. A voltage is not a target, because no control loop tracks it.
 struct DesiredColumns {
   const recording::Column *mode = nullptr, *value = nullptr;
   explicit operator bool() const { return mode && value; }
@@ -53,41 +53,41 @@ DesiredColumns desired_columns(const recording::Table& table, const std::string&
 }
 
 TrackedActuator tracked_actuator(const recording::Table& table, const std::string& actuator) {
-  TrackedActuator one{actuator, erp::Mode::off, {}, {}, {}};
+  TrackedActuator tracked{actuator, erp::Mode::off, {}, {}, {}};
   const auto [modes, values] = desired_columns(table, actuator);
-  const auto* running = table.find(actuator + ".mode");
+  const auto* ecu_mode = table.find(actuator + ".mode");
   for (std::size_t row = 0; row < table.rows(); ++row) {
     if (std::isnan(values->values[row]) || std::isnan(modes->values[row])) continue;
     const auto mode = static_cast<erp::Mode>(std::lround(modes->values[row]));
     if (mode == erp::Mode::off || mode == erp::Mode::voltage) continue;
-    if (one.mode == erp::Mode::off) one.mode = mode;
+    if (tracked.mode == erp::Mode::off) tracked.mode = mode;
     const auto* measured = table.find(actuator + measured_signal(mode));
-    if (mode != one.mode || !measured || std::isnan(measured->values[row])) continue;
-    if (running && !(running->values[row] > 0)) continue;
-    one.time_s.push_back(table.columns.front().values[row]);
-    one.target.push_back(values->values[row]);
-    one.measured.push_back(measured->values[row]);
+    if (mode != tracked.mode || !measured || std::isnan(measured->values[row])) continue;
+    if (ecu_mode && !(ecu_mode->values[row] > 0)) continue;
+    tracked.time_s.push_back(table.columns.front().values[row]);
+    tracked.target.push_back(values->values[row]);
+    tracked.measured.push_back(measured->values[row]);
   }
-  return one;
+  return tracked;
 }
 
 std::vector<TrackedActuator> tracked_actuators(const recording::Table& table) {
   std::vector<TrackedActuator> all;
   for (const auto& actuator : table.owners("mode"))
     if (desired_columns(table, actuator))
-      if (auto one = tracked_actuator(table, actuator); !one.target.empty())
-        all.push_back(std::move(one));
+      if (auto tracked = tracked_actuator(table, actuator); !tracked.target.empty())
+        all.push_back(std::move(tracked));
   return all;
 }
 
-double rms_error(const TrackedActuator& f, std::size_t from) {
+double rms_error(const TrackedActuator& tracked, std::size_t first_row) {
   double sum = 0;
-  for (std::size_t i = from; i < f.target.size(); ++i)
-    sum += (f.measured[i] - f.target[i]) * (f.measured[i] - f.target[i]);
-  return std::sqrt(sum / static_cast<double>(f.target.size() - from));
+  for (std::size_t i = first_row; i < tracked.target.size(); ++i)
+    sum += (tracked.measured[i] - tracked.target[i]) * (tracked.measured[i] - tracked.target[i]);
+  return std::sqrt(sum / static_cast<double>(tracked.target.size() - first_row));
 }
 
-/// The row of the only change of the target; nothing if there is no change or more than one.
+/// The row of the only change of the target; empty if there is no change or more than one.
 std::optional<std::size_t> single_step(const Values& target) {
   std::optional<std::size_t> step;
   for (std::size_t i = 1; i < target.size(); ++i) {
@@ -98,28 +98,39 @@ std::optional<std::size_t> single_step(const Values& target) {
   return step;
 }
 
-/// First time after `start` when the measured signal passes `level`.
-std::optional<double> passed_s(const TrackedActuator& f, std::size_t start, double level,
-                               bool upward) {
-  for (std::size_t i = start; i < f.measured.size(); ++i)
-    if (upward ? f.measured[i] >= level : f.measured[i] <= level) return f.time_s[i];
+/// First time, from row `start` on, at which the measured signal reaches `level`.
+std::optional<double> crossing_time_s(const TrackedActuator& tracked, std::size_t start,
+                                      double level, bool upward) {
+  for (std::size_t i = start; i < tracked.measured.size(); ++i)
+    if (upward ? tracked.measured[i] >= level : tracked.measured[i] <= level)
+      return tracked.time_s[i];
   return std::nullopt;
 }
 
-StepResponse response_of(const TrackedActuator& f, std::size_t step) {
-  StepResponse r{f.actuator, f.mode, f.target[step - 1], f.target[step], f.time_s[step], {}, 0, 0};
-  const double height = r.to - r.from;
-  const auto low = passed_s(f, step, r.from + 0.1 * height, height > 0);
-  const auto high = passed_s(f, step, r.from + 0.9 * height, height > 0);
-  if (low && high) r.rise_s = *high - *low;
-  for (std::size_t i = step; i < f.measured.size(); ++i)
-    r.overshoot = std::max(r.overshoot, (f.measured[i] - r.to) * (height > 0 ? 1 : -1));
-  r.steady_rms = rms_error(f, step + (f.target.size() - step) / 2);
-  return r;
+StepResponse response_of(const TrackedActuator& tracked, std::size_t step) {
+  StepResponse response{tracked.actuator,
+                        tracked.mode,
+                        tracked.target[step - 1],
+                        tracked.target[step],
+                        tracked.time_s[step],
+                        {},
+                        0,
+                        0};
+  const double height = response.step_target - response.previous_target;
+  const auto at_10_percent_s =
+      crossing_time_s(tracked, step, response.previous_target + 0.1 * height, height > 0);
+  const auto at_90_percent_s =
+      crossing_time_s(tracked, step, response.previous_target + 0.9 * height, height > 0);
+  if (at_10_percent_s && at_90_percent_s) response.rise_s = *at_90_percent_s - *at_10_percent_s;
+  for (std::size_t i = step; i < tracked.measured.size(); ++i)
+    response.overshoot = std::max(
+        response.overshoot, (tracked.measured[i] - response.step_target) * (height > 0 ? 1 : -1));
+  response.steady_rms = rms_error(tracked, step + (tracked.target.size() - step) / 2);
+  return response;
 }
 
-/// Value with unit; lengths in mm.
-std::string amount(double value, erp::Mode mode) {
+/// The value with its unit; lengths in mm.
+std::string value_text(double value, erp::Mode mode) {
   if (mode == erp::Mode::length) return fmt::format("{:.3f} mm", 1000 * value);
   return fmt::format("{:.3f} {}", value, erp::unit_of(mode));
 }
@@ -128,10 +139,10 @@ std::string amount(double value, erp::Mode mode) {
 
 std::vector<Tracking> tracking(const recording::Table& table) {
   std::vector<Tracking> all;
-  for (const auto& f : tracked_actuators(table)) {
-    Tracking t{f.actuator, f.mode, rms_error(f, 0), 0, f.target.size()};
-    for (std::size_t i = 0; i < f.target.size(); ++i)
-      t.largest = std::max(t.largest, std::abs(f.measured[i] - f.target[i]));
+  for (const auto& tracked : tracked_actuators(table)) {
+    Tracking t{tracked.actuator, tracked.mode, rms_error(tracked, 0), 0, tracked.target.size()};
+    for (std::size_t i = 0; i < tracked.target.size(); ++i)
+      t.largest = std::max(t.largest, std::abs(tracked.measured[i] - tracked.target[i]));
     all.push_back(t);
   }
   return all;
@@ -139,8 +150,8 @@ std::vector<Tracking> tracking(const recording::Table& table) {
 
 std::vector<StepResponse> step_responses(const recording::Table& table) {
   std::vector<StepResponse> all;
-  for (const auto& f : tracked_actuators(table))
-    if (const auto step = single_step(f.target)) all.push_back(response_of(f, *step));
+  for (const auto& tracked : tracked_actuators(table))
+    if (const auto step = single_step(tracked.target)) all.push_back(response_of(tracked, *step));
   return all;
 }
 
@@ -151,19 +162,19 @@ void print_tracking(const std::vector<Tracking>& tracks, std::ostream& out) {
   out << fmt::format("{:<20} {:<8} {:>14} {:>14}\n", "actuator", "mode", "RMS error", "largest");
   for (const auto& t : tracks)
     out << fmt::format("{:<20} {:<8} {:>14} {:>14}\n", t.actuator, erp::name_of(t.mode),
-                       amount(t.rms, t.mode), amount(t.largest, t.mode));
+                       value_text(t.rms, t.mode), value_text(t.largest, t.mode));
 }
 
 void print_steps(const std::vector<StepResponse>& steps, std::ostream& out) {
   for (const auto& s : steps)
     out << fmt::format(
         "{} steps {} -> {} at {:.3f} s: rise (10-90 %) {}, overshoot {}, steady RMS {}\n",
-        s.actuator, amount(s.from, s.mode), amount(s.to, s.mode), s.at_s,
-        s.rise_s ? fmt::format("{:.0f} ms", 1000 * *s.rise_s) : "not reached",
-        amount(s.overshoot, s.mode), amount(s.steady_rms, s.mode));
+        s.actuator, value_text(s.previous_target, s.mode), value_text(s.step_target, s.mode),
+        s.at_s, s.rise_s ? fmt::format("{:.0f} ms", 1000 * *s.rise_s) : "not reached",
+        value_text(s.overshoot, s.mode), value_text(s.steady_rms, s.mode));
 }
 
-/// A logger that was killed leaves its parts as NAME.1.mcap, NAME.2.mcap …
+/// If the logger was killed and restarted, the earlier parts are NAME.1.mcap, NAME.2.mcap …
 void print_parts(const std::vector<std::string>& parts, std::ostream& out) {
   if (parts.size() == 1) {
     out << "recording " << parts.front() << '\n';

@@ -18,12 +18,12 @@ struct Tracking {
   std::size_t rows = 0;
 };
 
-/// Response to a target with a single step. Rise: from 10 % to 90 % of the step, measured. Steady:
-/// RMS of the error over the second half of the time after the step.
+/// Response to a target with a single step. `rise_s`: time of the measured signal from 10 % to 90 %
+/// of the step. `steady_rms`: RMS of the error over the second half of the time after the step.
 struct StepResponse {
   std::string actuator;
   erp::Mode mode = erp::Mode::off;
-  double from = 0, to = 0, at_s = 0;
+  double previous_target = 0, step_target = 0, at_s = 0;
   std::optional<double> rise_s;  ///< absent: 90 % was not reached
   double overshoot = 0, steady_rms = 0;
 };
@@ -38,8 +38,8 @@ struct RecordedRun {
   double active_s =
       -1;  ///< time since all components became active; negative: the device never ran
 };
-/// Prints the file names, and tracking errors and step responses of the last file. Returns 0, or 1
-/// if it cannot be read.
+/// Prints the file names, and the tracking errors and step responses of the last file. Returns 0,
+/// or 1 if that file cannot be read.
 int print_summary(const RecordedRun& run, std::ostream& out);
 
 }  // namespace launch

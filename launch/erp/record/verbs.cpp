@@ -78,9 +78,10 @@ void add_joints(CLI::App& log, Chosen& chosen) {
       log.add_subcommand("joints", "Print the difference between two sources of joint angles");
   const Text file = add_file(*verb, "recording, .mcap");
   auto options = std::make_shared<LogJointsOptions>();
-  verb->add_option("--of", options->of, "compared source: sim, pose_estimator or motion_capture")
+  verb->add_option("--of", options->source,
+                   "compared source: sim, pose_estimator or motion_capture")
       ->capture_default_str();
-  verb->add_option("--against", options->against,
+  verb->add_option("--against", options->reference_source,
                    "reference source: joint_target or one of the above")
       ->capture_default_str();
   verb->add_option("--from", options->from_s, "ignore the time before, s")->capture_default_str();

@@ -4,7 +4,7 @@
 
 namespace launch {
 
-constexpr int event_depth = 64;  // chosen: a burst of events from one component
+constexpr int event_depth = 64;  // queue length for a burst of events from one component; chosen
 
 BusLink::BusLink(std::string robot)
     : robot_(std::move(robot)),
@@ -18,9 +18,9 @@ BusLink::BusLink(std::string robot)
 
 void BusLink::poll(const Handlers& handlers) {
   wake_.clear();
-  const auto of_robot = [this](const auto& use) {
-    return [this, &use](const auto& message) {
-      if (robot_ == message.robot) use(message);
+  const auto of_robot = [this](const auto& handler) {
+    return [this, &handler](const auto& message) {
+      if (robot_ == message.robot) handler(message);
     };
   };
   states_.take(of_robot(handlers.state));
@@ -30,10 +30,10 @@ void BusLink::poll(const Handlers& handlers) {
 
 std::vector<node::Peer> BusLink::peers() {
   peers_.discover();
-  std::vector<node::Peer> found;
+  std::vector<node::Peer> peers;
   for (const auto& peer : peers_.known())
-    if (peer.robot == robot_) found.push_back(peer);
-  return found;
+    if (peer.robot == robot_) peers.push_back(peer);
+  return peers;
 }
 
 void BusLink::command(const std::string& component, erp::Lifecycle target) {

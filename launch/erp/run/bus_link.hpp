@@ -6,8 +6,8 @@
 #include "components/node/peers.hpp"
 #include "interfaces/values.hpp"
 
-/// The launcher's DDS participant: receives messages of the components of one robot and sends them
-/// lifecycle commands.
+/// The DDS participant of the launcher: receives messages from the components of one robot, and
+/// sends lifecycle commands to them.
 namespace launch {
 
 class BusLink {

@@ -5,7 +5,7 @@
 
 namespace launch {
 
-/// Copies the measurements of a component's heartbeat into its table row.
+/// Copies the measurements in the heartbeat of a component to its table row.
 inline void fill_measurements(Row& row, const erp::ComponentState& state) {
   row.pid = state.pid;
   row.rate_Hz = state.rate_Hz;

@@ -48,33 +48,35 @@ std::vector<std::string> sources(const erp::Graph& graph, const erp::Robot& robo
 void check_components(const Plan& plan) {
   std::string errors;
   for (const auto& process : plan.processes) {
-    const std::string found = check_component(process.argv);
-    if (!found.empty()) errors += (errors.empty() ? "" : "\n") + process.name + ": " + found;
+    const std::string component_errors = check_component(process.argv);
+    if (!component_errors.empty())
+      errors += (errors.empty() ? "" : "\n") + process.name + ": " + component_errors;
   }
   while (errors.ends_with('\n')) errors.pop_back();
   if (!errors.empty()) throw std::invalid_argument(errors);
 }
 
-/// The recordings of the run, oldest first. A restarted logger has renamed the part before it.
-std::vector<std::string> parts_of(const std::string& recording, fs::file_time_type since) {
+/// The recordings of the run, oldest first. A restarted logger renames the earlier part to
+/// NAME.k.mcap.
+std::vector<std::string> parts_of(const std::string& recording, fs::file_time_type start_time) {
   std::vector<std::string> parts;
   std::error_code ignored;
-  const auto of_this_run = [&](const fs::path& path) {
+  const auto is_of_this_run = [&](const fs::path& path) {
     return fs::exists(path, ignored) && fs::file_size(path, ignored) > 0 &&
-           fs::last_write_time(path, ignored) >= since;
+           fs::last_write_time(path, ignored) >= start_time;
   };
   const fs::path last(recording);
   for (int k = 1;; ++k) {
     auto part = last;
     part.replace_extension("." + std::to_string(k) + last.extension().string());
     if (!fs::exists(part, ignored)) break;
-    if (of_this_run(part)) parts.push_back(part.string());
+    if (is_of_this_run(part)) parts.push_back(part.string());
   }
-  if (of_this_run(last)) parts.push_back(recording);
+  if (is_of_this_run(last)) parts.push_back(recording);
   return parts;
 }
 
-/// Sets DDS Security for this process and its children. Rejects an invalid folder before any
+/// Enables DDS Security for this process and its children. Rejects an invalid folder before any
 /// process starts.
 void set_security(const std::optional<std::string>& folder) {
   if (folder) setenv("ERP_SECURITY", folder->empty() ? "" : fs::absolute(*folder).c_str(), 1);
@@ -104,10 +106,10 @@ int launch_graph(const LaunchOptions& options) {
   Plan plan = make_plan(graph, run_options, find);
   plan.max_restarts = options.max_restarts;
   plan.ready_timeout_s = ready_timeout_s;
-  const auto since = fs::file_time_type::clock::now();
+  const auto start_time = fs::file_time_type::clock::now();
   Run run(graph, robot.name, plan, run_options.folder);
   const int exit_code = run.execute();
-  const auto parts = parts_of(plan.recording, since);
+  const auto parts = parts_of(plan.recording, start_time);
   if (!parts.empty()) print_summary({parts, robot.name, run.active_s()}, std::cout);
   return exit_code;
 }

@@ -14,7 +14,7 @@ struct LaunchOptions {
   std::optional<erp::Time> time;      ///< absent: as in the graph
   std::string duration;               ///< "20s"; empty: as in the graph
   std::vector<std::string> settings;  ///< component.key=value
-  std::size_t max_restarts = 5;  ///< of one component within 30 s; the next failure ends the run
+  std::size_t max_restarts = 5;  ///< of one component within 30 s; one more failure ends the run
   std::string ready_timeout = "60s";    ///< time limit until all components are ready
   std::string folder;                   ///< of the run; empty: erp_runs/<graph>/<UTC time>
   std::optional<std::string> security;  ///< folder of erp security make; absent: ERP_SECURITY

@@ -46,9 +46,9 @@ std::string type_of(const erp::GraphComponent& component) {
   return component.type.empty() ? component.name : component.type;
 }
 
-/// The line of the graph for an implicit component, or a default without config. The default
-/// restarts the plant after every end, since no actuator moves without it.
-erp::GraphComponent line_for(const erp::Graph& graph, const std::string& type) {
+/// The <component> of the graph for a component that the launcher adds, or a default without
+/// config. The default restarts the plant whenever it ends, because no actuator moves without it.
+erp::GraphComponent component_for(const erp::Graph& graph, const std::string& type) {
   for (const auto& component : graph.components)
     if (component.name == type) return component;
   erp::GraphComponent implicit;
@@ -103,8 +103,8 @@ void fill_command_line(PlannedProcess& process, const erp::Graph& graph, const R
   add("--robot", graph.robot);
   if (!config.empty()) add("--config", config);
   add("--time", name_of(graph.time));
-  // In lockstep the device counts the ticks of the run; otherwise the launcher's clock ends the
-  // run.
+  // In lockstep the device counts the ticks of the run. Otherwise the launcher ends the run by its
+  // own clock.
   if (process.role == Role::device && graph.duration_s > 0 && graph.time == erp::Time::lockstep)
     add("--duration", number(graph.duration_s));
   for (const auto& setting : settings_of(graph, options, process)) add("--set", setting);
@@ -121,7 +121,8 @@ void check_settings(const Plan& plan, const RunOptions& options) {
                                   xml::did_you_mean(setting.component, names));
 }
 
-/// An implicit component, such as the device, has no place in a file to report.
+/// Reports a missing program. A component that the launcher adds, such as the device, has no place
+/// in a file.
 [[noreturn]] void throw_missing(const erp::GraphComponent& component, const std::string& type) {
   const std::string what = "component \"" + component.name + "\": no program \"" + type +
                            "\" beside erp, in $ERP_COMPONENT_PATH or in $PATH";
@@ -131,8 +132,9 @@ void check_settings(const Plan& plan, const RunOptions& options) {
 }
 
 std::string recording_of(const PlannedProcess& logger) {
+  constexpr std::string_view file_setting = "file=";
   for (const auto& argument : logger.argv)
-    if (argument.starts_with("file=")) return argument.substr(5);
+    if (argument.starts_with(file_setting)) return argument.substr(file_setting.size());
   return "";
 }
 
@@ -175,13 +177,13 @@ Plan make_plan(const erp::Graph& graph, const RunOptions& options,
   };
   for (const auto& component : graph.components)
     if (type_of(component) == "logger") add(component, Role::logger);
-  add(line_for(graph, "plant"), Role::plant);
+  add(component_for(graph, "plant"), Role::plant);
   for (const auto& component : graph.components)
     if (type_of(component) != "logger" && component.name != "plant" &&
         !is_device_type(component.name))
       add(component, Role::controller);
-  if (needs_robot_behind_bus(graph)) add(line_for(graph, "sim"), Role::robot_behind_bus);
-  add(line_for(graph, device_type(graph.device)), Role::device);
+  if (needs_robot_behind_bus(graph)) add(component_for(graph, "sim"), Role::robot_behind_bus);
+  add(component_for(graph, device_type(graph.device)), Role::device);
   check_settings(plan, options);
   if (plan.processes.front().role == Role::logger)
     plan.recording = recording_of(plan.processes.front());

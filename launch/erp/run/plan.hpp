@@ -7,7 +7,7 @@
 #include "interfaces/graph/graph.hpp"
 #include "launch/erp/run/back_off.hpp"
 
-/// The processes of a graph with their command lines. Pure: reads no file, starts no process.
+/// The processes of a graph with their command lines. Reads no file and starts no process.
 namespace launch {
 
 /// `--set component.key=value`.
@@ -50,10 +50,10 @@ struct Plan {
 /// Returns the program of a component type, or "".
 using FindProgram = std::function<std::string(const std::string& type)>;
 
-/// Adds the plant, the device and, behind a CAN bus without hardware, the simulator to the
-/// components of the graph. Lines of the graph with these names configure them. Throws
-/// std::invalid_argument with a remedy for an unknown program, a setting of a component that does
-/// not exist, and lockstep with hardware.
+/// Adds to the components of the graph: the plant, the device and, behind a CAN bus without
+/// hardware, the simulator. A <component> of the graph with one of these names configures it.
+/// Throws std::invalid_argument with a remedy for an unknown program, a setting of a component that
+/// does not exist, and lockstep with hardware.
 Plan make_plan(const erp::Graph& graph, const RunOptions& options, const FindProgram& find_program);
 
 }  // namespace launch

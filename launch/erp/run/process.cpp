@@ -28,15 +28,16 @@ struct Descriptor {
   }
 };
 
-/// Runs in the child. Only async-signal-safe calls up to exec: the launcher has DDS threads.
-[[noreturn]] void become(char* const* argv, pid_t parent, int death_signal, int input, int log,
-                         int error_pipe) {
+/// Runs in the child process and executes the program. Makes only async-signal-safe calls before
+/// exec, because the launcher has DDS threads.
+[[noreturn]] void exec_program(char* const* argv, pid_t parent, int death_signal, int input,
+                               int log, int error_pipe) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, death_signal);
   if (getppid() != parent) _exit(1);  // the launcher died before the line above
-  sigset_t none;
-  sigemptyset(&none);
-  sigprocmask(SIG_SETMASK, &none, nullptr);
+  sigset_t no_signals;
+  sigemptyset(&no_signals);
+  sigprocmask(SIG_SETMASK, &no_signals, nullptr);
   for (const int number : {SIGINT, SIGTERM, SIGPIPE, SIGCHLD}) signal(number, SIG_DFL);
   dup2(input, STDIN_FILENO);
   dup2(log, STDOUT_FILENO);
@@ -61,9 +62,9 @@ Process::Process(const std::vector<std::string>& argv, const std::string& log_fi
   const Descriptor input{open("/dev/null", O_RDONLY | O_CLOEXEC)};
   const Descriptor log{open(log_file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644)};
   if (log.number < 0) fail(errno, log_file);
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) fail(errno, "pipe");
-  Descriptor error_reader{ends[0]}, error_writer{ends[1]};
+  int pipe_ends[2];
+  if (pipe2(pipe_ends, O_CLOEXEC) != 0) fail(errno, "pipe");
+  Descriptor error_reader{pipe_ends[0]}, error_writer{pipe_ends[1]};
 
   std::vector<char*> arguments;
   for (const auto& argument : argv) arguments.push_back(const_cast<char*>(argument.c_str()));
@@ -72,8 +73,9 @@ Process::Process(const std::vector<std::string>& argv, const std::string& log_fi
   pid_ = fork();
   if (pid_ < 0) fail(errno, "fork");
   if (pid_ == 0)
-    become(arguments.data(), parent, death_signal, input.number, log.number, error_writer.number);
-  setpgid(pid_, pid_);  // parent and child set it, so that neither has to wait
+    exec_program(arguments.data(), parent, death_signal, input.number, log.number,
+                 error_writer.number);
+  setpgid(pid_, pid_);  // both parent and child set it: neither has to wait for the other
   error_writer.close();
 
   // exec closes the pipe; an error number in the pipe means that exec failed.
@@ -121,7 +123,7 @@ std::optional<Ending> Process::poll() {
 }
 
 void Process::collect(int wait_options) {
-  // WNOWAIT first, reap later: while the zombie keeps its pid, the group can be signalled safely.
+  // WNOWAIT does not reap the process: its pid stays reserved while the group receives SIGKILL.
   siginfo_t info{};
   if (waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOWAIT | wait_options) != 0) {
     ending_ = Ending{-1, 0};  // already reaped elsewhere

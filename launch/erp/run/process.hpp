@@ -9,7 +9,7 @@
 /// One child process. Linux: fork, exec, pidfd.
 namespace launch {
 
-/// How a process ended: by its own exit code, or by a signal (`signal` ≠ 0).
+/// The end of a process: by its exit code, or by a signal (`signal` ≠ 0).
 struct Ending {
   int code = 0;
   int signal = 0;
@@ -19,12 +19,12 @@ struct Ending {
 /// "exit code 1", "killed by signal 9 (Killed)".
 std::string to_string(const Ending& ending);
 
-/// Owns a running program in a process group of its own.
+/// Owns a running program in its own process group.
 ///
 /// The program receives `death_signal` when the launcher dies (PR_SET_PDEATHSIG), inherits no
 /// descriptor except its log, has /dev/null as stdin, and has no signal blocked. When it ends, the
-/// remaining processes of its group are killed. Must be created on a thread that lives as long as
-/// the launcher: the kernel ties the death signal to that thread.
+/// remaining processes of its group are killed. Create it on a thread that exists as long as the
+/// launcher, because the kernel sends the death signal when that thread ends.
 class Process {
  public:
   /// Appends stdout and stderr to `log_file`. Throws std::system_error when the log cannot be
@@ -37,9 +37,9 @@ class Process {
 
   pid_t pid() const { return pid_; }
   int descriptor() const { return descriptor_; }  ///< a pidfd: readable once the program has ended
-  void send(int signal) const;                    ///< to the whole group; no effect after its end
-  std::optional<Ending>
-  poll();  ///< reaps the program if it has ended; repeated calls return the same
+  void send(int signal) const;  ///< to the whole group; no effect after the program has ended
+  /// Reaps the program if it has ended and returns its end; empty while it runs.
+  std::optional<Ending> poll();
 
  private:
   void collect(int wait_options);

@@ -10,7 +10,8 @@
 namespace launch {
 namespace {
 
-constexpr std::int64_t shortest_interval_ns = 500'000'000;  // chosen: the counters tick in 10 ms
+constexpr std::int64_t min_interval_ns =
+    500'000'000;  // chosen: the counters have a resolution of 10 ms
 
 /// User and system time: fields 14 and 15 of proc(5) stat, counted after the ")" of the name.
 std::optional<double> busy_s(pid_t pid) {
@@ -28,7 +29,7 @@ std::optional<double> busy_s(pid_t pid) {
 }  // namespace
 
 double ProcessorShare::measure(pid_t pid, std::int64_t now_ns) {
-  if (pid == pid_ && now_ns - last_ns_ < shortest_interval_ns) return percent_;
+  if (pid == pid_ && now_ns - last_ns_ < min_interval_ns) return percent_;
   const auto busy = busy_s(pid);
   if (!busy) return pid_ = 0, percent_ = -1;
   percent_ = pid == pid_

@@ -27,11 +27,13 @@ void append_folders(std::vector<fs::path>& folders, const char* variable) {
 
 std::string own_folder() { return fs::read_symlink("/proc/self/exe").parent_path().string(); }
 
-/// An installed `erp` has its components in ../libexec/erp, one of a build tree beside it. In /usr/bin, beside an installed
-/// `erp`, are programs of others with the same names, such as Debian's logger.
+/// The components of an installed `erp` are in ../libexec/erp, those of a build tree in the folder
+/// of `erp`. The folder of an installed `erp` is not searched: /usr/bin contains other programs
+/// with the same names, such as Debian's logger.
 static fs::path component_folder() {
-  const fs::path own = own_folder(), installed = own.parent_path() / "libexec" / "erp";
-  return fs::is_directory(installed) ? installed : own;
+  const fs::path erp_folder = own_folder(),
+                 installed_components = erp_folder.parent_path() / "libexec" / "erp";
+  return fs::is_directory(installed_components) ? installed_components : erp_folder;
 }
 
 std::string find_program(const std::string& type, const std::string& graph_folder) {

@@ -19,11 +19,11 @@
 namespace launch {
 namespace {
 
-constexpr int tick_ms = 20;                      // chosen: the start-up advances once per tick
-constexpr std::int64_t change_ns = 20'000'000;   // chosen
-constexpr std::int64_t redraw_ns = 200'000'000;  // chosen
-constexpr std::size_t shown_log_lines = 12;
-constexpr double reported_behind_s = 0.2;  // chosen: a larger delay is reported at the end
+constexpr int tick_ms = 20;  // chosen: the start-up advances by one component per tick
+constexpr std::int64_t plain_output_period_ns = 20'000'000;  // chosen
+constexpr std::int64_t redraw_period_ns = 200'000'000;       // chosen
+constexpr std::size_t max_log_lines = 12;
+constexpr double min_reported_delay_s = 0.2;  // chosen: a larger delay is reported at the end
 
 std::vector<SupervisedProcess> processes_of(const Plan& plan) {
   std::vector<SupervisedProcess> processes;
@@ -87,12 +87,14 @@ int Run::execute() {
     poll_bus();
     handle_signals();
     reap();
-    stop_when_over();
+    stop_after_duration();
     supervisor_.tick(time_.now_ns());
     execute_actions();
-    if (time_.now_ns() - drawn_ns_ < (screen_.is_terminal() ? redraw_ns : change_ns)) continue;
+    if (time_.now_ns() - last_drawn_ns_ <
+        (screen_.is_terminal() ? redraw_period_ns : plain_output_period_ns))
+      continue;
     screen_.show(status());
-    drawn_ns_ = time_.now_ns();
+    last_drawn_ns_ = time_.now_ns();
   }
   poll_bus();
   screen_.show(status());
@@ -114,21 +116,21 @@ void Run::poll_bus() {
 }
 
 void Run::on_state(const erp::ComponentState& state) {
-  const auto found = index_of_.find(state.component);
-  if (found == index_of_.end()) return;
-  Member& member = members_[found->second];
-  // A component of this run is in the process group of the process started for it.
+  const auto entry = index_of_.find(state.component);
+  if (entry == index_of_.end()) return;
+  Member& member = members_[entry->second];
+  // A component of this run belongs to the process group of the process that was started for it.
   const pid_t group = getpgid(state.pid);
   if (group < 0) return;  // last heartbeat of a process that has ended
   if (!member.process || group != member.process->pid()) return reject_conflict(state);
   member.heartbeat = state;
   member.heartbeat_ns = time_.now_ns();
-  supervisor_.on_heartbeat(found->second,
+  supervisor_.on_heartbeat(entry->second,
                            {static_cast<erp::Lifecycle>(state.lifecycle), state.peers, state.links},
                            time_.now_ns());
 }
 
-/// Two graphs cannot control one robot: the second one starts no process.
+/// Returns true if another graph already controls the robot; then this run starts no process.
 bool Run::finds_conflict() {
   for (const auto until_ns = time_.now_ns() + node::discovery_ns(); time_.now_ns() < until_ns;
        time_.tick(node::monotonic_ns())) {
@@ -157,7 +159,8 @@ void Run::on_event(const erp::Event& event) {
   else print(text + event.text);
 }
 
-/// After the end of the device the others report it missing: logged, not printed.
+/// After the end of the device, the other components report that it is missing; these events are
+/// logged but not printed.
 bool Run::is_ending() const {
   const auto& device = members_.back().heartbeat;
   return supervisor_.stage() == Stage::stopping ||
@@ -191,9 +194,10 @@ void Run::handle_signals() {
   }
 }
 
-void Run::stop_when_over() {
+void Run::stop_after_duration() {
   if (supervisor_.stage() == Stage::running) time_.running();
-  if (time_.over()) supervisor_.stop(to_text_s(graph_.duration_s) + " are over", 0, time_.now_ns());
+  if (time_.is_over())
+    supervisor_.stop(to_text_s(graph_.duration_s) + " are over", 0, time_.now_ns());
 }
 
 void Run::execute_actions() {
@@ -229,7 +233,7 @@ void Run::spawn(std::size_t index) {
   std::ofstream(planned.log_file, std::ios::app) << "$ " << line << '\n';
   members_[index].heartbeat.reset();
   try {
-    // If the launcher is killed, the logger still has to close its file.
+    // If the launcher is killed, SIGTERM lets the logger close its file.
     const int death_signal = planned.role == Role::logger ? SIGTERM : SIGKILL;
     members_[index].process.emplace(planned.argv, planned.log_file, death_signal);
   } catch (const std::system_error& error) {
@@ -241,7 +245,7 @@ void Run::spawn(std::size_t index) {
 void Run::show_log(std::size_t index) {
   const auto& file = plan_.processes[index].log_file;
   print("  last lines of " + file + ":");
-  for (const auto& line : last_lines(file, shown_log_lines)) print("  | " + line);
+  for (const auto& line : last_lines(file, max_log_lines)) print("  | " + line);
 }
 
 void Run::log(const std::string& text) {
@@ -255,8 +259,8 @@ void Run::print(const std::string& text) {
 
 void Run::print_end() {
   std::string text = graph_.name + ": ended after " + to_text_s(time_.elapsed_s());
-  if (time_.behind_s() > reported_behind_s)
-    print("the device time is " + to_text_s(time_.behind_s()) +
+  if (time_.device_delay_s() > min_reported_delay_s)
+    print("the device time is " + to_text_s(time_.device_delay_s()) +
           " behind real time because the machine is too busy; use --lockstep");
   if (time_.device_s() >= 0) text += ", " + to_text_s(time_.device_s()) + " of device time";
   for (std::size_t i = 0; i < members_.size(); ++i)

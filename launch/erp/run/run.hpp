@@ -47,7 +47,7 @@ class Run {
   bool is_ending() const;
   void reap();
   void handle_signals();
-  void stop_when_over();
+  void stop_after_duration();
   void execute_actions();
   void spawn(std::size_t index);
   void show_log(std::size_t index);
@@ -62,14 +62,14 @@ class Run {
   Plan plan_;
   std::string folder_;
   std::ofstream log_;
-  Signals signals_;  // before the bus, whose threads inherit the signal mask
+  Signals signals_;  // before bus_: its threads inherit the signal mask
   BusLink bus_;
   Supervisor supervisor_;
   RunTime time_;
   Screen screen_;
   std::vector<Member> members_;
   std::map<std::string, std::size_t> index_of_;
-  std::int64_t drawn_ns_ = 0;
+  std::int64_t last_drawn_ns_ = 0;
 };
 
 }  // namespace launch

@@ -5,7 +5,7 @@
 namespace launch {
 namespace {
 
-constexpr std::int64_t silence_ns = 1'000'000'000;  // ten heartbeats
+constexpr std::int64_t max_heartbeat_age_ns = 1'000'000'000;  // ten heartbeats
 
 template <class Enum>
 std::string name_in(Enum value) {
@@ -19,7 +19,8 @@ std::string name_in(Enum value) {
 std::string Run::state_of(std::size_t index) const {
   const Phase phase = supervisor_.phase(index);
   const bool on_bus = phase == Phase::active || phase == Phase::inactive;
-  if (on_bus && time_.now_ns() - members_[index].heartbeat_ns > silence_ns) return "silent";
+  if (on_bus && time_.now_ns() - members_[index].heartbeat_ns > max_heartbeat_age_ns)
+    return "silent";
   return name_of(phase);
 }
 

@@ -21,7 +21,7 @@ double RunTime::active_s() const {
   return running_since_ns_ ? 1e-9 * static_cast<double>(now_ns_ - *running_since_ns_) : 0;
 }
 
-double RunTime::behind_s() const {
+double RunTime::device_delay_s() const {
   if (lockstep_ || !last_stamp_ns_) return 0;
   return 1e-9 * static_cast<double>(last_clock_ns_ - first_clock_ns_) - device_s();
 }
@@ -30,8 +30,8 @@ double RunTime::remaining_s() const {
   if (duration_s_ <= 0 || !running_since_ns_) return -1;
   if (lockstep_)
     return real_time_factor_ > 0 ? std::max(0.0, duration_s_ - device_s()) / real_time_factor_ : -1;
-  const double ran_s = 1e-9 * static_cast<double>(now_ns_ - *running_since_ns_);
-  return std::max(0.0, duration_s_ - ran_s);
+  const double elapsed_s = 1e-9 * static_cast<double>(now_ns_ - *running_since_ns_);
+  return std::max(0.0, duration_s_ - elapsed_s);
 }
 
 }  // namespace launch

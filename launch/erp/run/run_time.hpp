@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <optional>
 
-/// Elapsed and remaining time of a run, in real time and device time. Pure.
+/// Elapsed and remaining time of a run, in real time and device time. Reads no clock.
 namespace launch {
 
 class RunTime {
@@ -14,22 +14,22 @@ class RunTime {
   void tick(std::int64_t now_ns) { now_ns_ = now_ns; }
   /// Reports that all components are active. The duration counts from the first call.
   void running() { running_since_ns_ = running_since_ns_.value_or(now_ns_); }
-  /// A restarted device begins at 0 again; the time before the restart still counts.
+  /// The clock of a restarted device begins at 0; the device time before the restart still counts.
   void on_device_clock(std::int64_t stamp_ns, double real_time_factor);
 
   std::int64_t now_ns() const { return now_ns_; }
   double elapsed_s() const { return 1e-9 * static_cast<double>(now_ns_ - started_ns_); }
   double device_s() const;  ///< negative: no clock message received
-  /// Time since all components became active: device time in lockstep, else real time. Negative: no
-  /// clock message received.
+  /// Time since all components became active: device time in lockstep, otherwise real time.
+  /// Negative: no clock message received.
   double active_s() const;
   /// Delay of device time relative to real time; 0 in lockstep.
-  double behind_s() const;
-  /// Remaining real time; negative: no limit, or not known yet.
+  double device_delay_s() const;
+  /// Remaining real time; negative: there is no limit, or it is not known yet.
   double remaining_s() const;
-  /// True when the duration has passed in real time, regardless of restarts. In lockstep the device
-  /// ends the run.
-  bool over() const {
+  /// Whether the duration has passed in real time, regardless of restarts. Always false in
+  /// lockstep, where the device ends the run.
+  bool is_over() const {
     return !lockstep_ && running_since_ns_ && duration_s_ > 0 && remaining_s() <= 0;
   }
 

@@ -22,7 +22,7 @@ Size size_of(std::FILE* out) {
 
 }  // namespace
 
-Screen::Screen(std::FILE* out) : out_(out), terminal_(isatty(fileno(out)) != 0) {}
+Screen::Screen(std::FILE* out) : out_(out), is_terminal_(isatty(fileno(out)) != 0) {}
 
 void Screen::print(double time_s, const std::string& text) {
   clear();
@@ -32,7 +32,7 @@ void Screen::print(double time_s, const std::string& text) {
 }
 
 void Screen::show(const Status& status) {
-  if (terminal_) {
+  if (is_terminal_) {
     clear();
     table_ = render(status);
     draw();
@@ -48,19 +48,19 @@ void Screen::show(const Status& status) {
 }
 
 void Screen::clear() {
-  if (drawn_) std::fprintf(out_, "\033[%zuA\r\033[J", drawn_);
-  drawn_ = 0;
+  if (drawn_lines_) std::fprintf(out_, "\033[%zuA\r\033[J", drawn_lines_);
+  drawn_lines_ = 0;
 }
 
 void Screen::draw() {
-  if (!terminal_) return;
+  if (!is_terminal_) return;
   const Size size = size_of(out_);
-  const std::size_t room = std::max<std::size_t>(size.rows, 4) - 2;
-  drawn_ = std::min(table_.size(), room);
-  for (std::size_t i = 0; i < drawn_; ++i) {
-    const bool cut = i + 1 == drawn_ && drawn_ < table_.size();
+  const std::size_t max_lines = std::max<std::size_t>(size.rows, 4) - 2;
+  drawn_lines_ = std::min(table_.size(), max_lines);
+  for (std::size_t i = 0; i < drawn_lines_; ++i) {
+    const bool is_truncated = i + 1 == drawn_lines_ && drawn_lines_ < table_.size();
     const std::string line =
-        cut ? "… and " + std::to_string(table_.size() - i) + " more" : table_[i];
+        is_truncated ? "… and " + std::to_string(table_.size() - i) + " more" : table_[i];
     std::fprintf(out_, "%s\n", clipped(line, size.columns).c_str());
   }
 }

@@ -6,13 +6,13 @@
 
 #include "launch/erp/run/status_table.hpp"
 
-/// Output of a run: on a terminal a table that is redrawn below the printed lines, elsewhere one
-/// plain line per change.
+/// Output of a run. On a terminal: a table that is redrawn below the printed lines. Otherwise: one
+/// line per change.
 namespace launch {
 
 class Screen {
  public:
-  /// The last table stays on the terminal after destruction.
+  /// The last table stays on the terminal when the screen is destroyed.
   explicit Screen(std::FILE* out);
   Screen(const Screen&) = delete;
   Screen& operator=(const Screen&) = delete;
@@ -20,18 +20,18 @@ class Screen {
   /// `time_s`: time since the start of the run.
   void print(double time_s, const std::string& text);
   void show(const Status& status);
-  bool is_terminal() const { return terminal_; }
+  bool is_terminal() const { return is_terminal_; }
 
  private:
   void clear();
   void draw();
 
   std::FILE* out_;
-  bool terminal_;
+  bool is_terminal_;
   std::vector<std::string> table_;
-  std::size_t drawn_ = 0;  ///< lines of the table that are on the terminal
-  std::map<std::string, std::string>
-      states_;  ///< state printed last, by component; without a terminal
+  std::size_t drawn_lines_ = 0;  ///< lines of the table that are on the terminal
+  /// Without a terminal: the state that was printed last, by component.
+  std::map<std::string, std::string> states_;
 };
 
 }  // namespace launch

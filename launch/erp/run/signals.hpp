@@ -1,7 +1,7 @@
 #pragma once
 
-/// Signals as a readable descriptor. Must be created before any thread starts, so that all threads
-/// block them.
+/// Signals as a readable descriptor. Create it before any thread starts: all threads then block
+/// these signals.
 namespace launch {
 
 class Signals {

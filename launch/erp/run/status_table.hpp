@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-/// The status of a run as lines of text. Pure.
+/// The status of a run as lines of text.
 namespace launch {
 
 /// One component. Ages and jitter in µs; 0 or less: not measured.

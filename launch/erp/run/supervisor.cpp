@@ -38,15 +38,15 @@ void Supervisor::tick(std::int64_t now_ns) {
 
 void Supervisor::on_heartbeat(std::size_t index, const Heartbeat& heartbeat, std::int64_t now_ns) {
   Member& member = members_[index];
-  if (heartbeat.links != member.heartbeat.links) member.links_since_ns = now_ns;
+  if (heartbeat.links != member.heartbeat.links) member.links_changed_ns = now_ns;
   member.heartbeat = heartbeat;
   member.finalized = heartbeat.lifecycle == erp::Lifecycle::finalized;
-  const bool starting = member.phase == Phase::starting;
-  if (starting && heartbeat.lifecycle == erp::Lifecycle::inactive) {
+  const bool is_starting = member.phase == Phase::starting;
+  if (is_starting && heartbeat.lifecycle == erp::Lifecycle::inactive) {
     member.phase = Phase::inactive;
-    member.links_since_ns = now_ns;
+    member.links_changed_ns = now_ns;
   }
-  if ((starting || member.phase == Phase::inactive) &&
+  if ((is_starting || member.phase == Phase::inactive) &&
       heartbeat.lifecycle == erp::Lifecycle::active)
     member.phase = Phase::active;
 }
@@ -55,12 +55,12 @@ void Supervisor::on_exit(std::size_t index, const Ending& ending, std::int64_t n
   Member& member = members_[index];
   const std::string what = member.process.name + ": " + to_string(ending);
   if (stage_ == Stage::stopping) {
-    const bool stopped = ending.clean() || (ending.signal == SIGTERM && !member.killed);
-    member.phase = stopped ? Phase::ended : Phase::failed;
-    if (stopped) return;
+    const bool is_stopped = ending.clean() || (ending.signal == SIGTERM && !member.killed);
+    member.phase = is_stopped ? Phase::ended : Phase::failed;
+    if (is_stopped) return;
     exit_code_ = std::max(exit_code_, 1);
     print(what + " while stopping");
-    if (!member.killed) act(Action::Kind::show_log, index);
+    if (!member.killed) add_action(Action::Kind::show_log, index);
     return;
   }
   member.phase = Phase::ended;
@@ -78,7 +78,7 @@ void Supervisor::on_exit(std::size_t index, const Ending& ending, std::int64_t n
 void Supervisor::restart(std::size_t index, const Ending& ending, std::int64_t now_ns) {
   Member& member = members_[index];
   const std::string what = member.process.name + ": " + to_string(ending);
-  const auto delay_ns = member.back_off.fail(now_ns);
+  const auto delay_ns = member.back_off.on_failure(now_ns);
   const std::size_t k = member.back_off.restarts_in_window();
   if (!delay_ns)
     return fail(index,
@@ -90,20 +90,20 @@ void Supervisor::restart(std::size_t index, const Ending& ending, std::int64_t n
   member.spawn_due_ns = now_ns + *delay_ns;
   print(what + ", restart " + std::to_string(k) + " of " +
         std::to_string(tuning_.restart.max_restarts) + " in " + seconds(*delay_ns));
-  if (k == 1 && !ending.clean()) act(Action::Kind::show_log, index);
+  if (k == 1 && !ending.clean()) add_action(Action::Kind::show_log, index);
 }
 
-void Supervisor::fail(std::size_t index, const std::string& why, int exit_code,
+void Supervisor::fail(std::size_t index, const std::string& reason, int exit_code,
                       std::int64_t now_ns) {
   members_[index].phase = Phase::failed;
-  act(Action::Kind::show_log, index);
-  stop(why, exit_code, now_ns);
+  add_action(Action::Kind::show_log, index);
+  stop(reason, exit_code, now_ns);
 }
 
-void Supervisor::stop(const std::string& why, int exit_code, std::int64_t now_ns) {
+void Supervisor::stop(const std::string& reason, int exit_code, std::int64_t now_ns) {
   exit_code_ = std::max(exit_code_, exit_code);
   if (stage_ == Stage::stopping || stage_ == Stage::done) return;
-  print(why + "; stopping");
+  print(reason + "; stopping");
   stage_ = Stage::stopping;
   for (auto& member : members_) {
     member.requested_ns.reset();
@@ -117,24 +117,24 @@ void Supervisor::kill_now() {
   stage_ = Stage::stopping;
   exit_code_ = std::max(exit_code_, 1);
   for (auto& member : members_) {
-    if (!alive(member)) continue;
+    if (!is_alive(member)) continue;
     member.phase = Phase::stopping;
     member.killed = true;
-    act(Action::Kind::kill, index_of(member));
+    add_action(Action::Kind::kill, index_of(member));
   }
 }
 
-bool Supervisor::alive(const Member& member) const {
+bool Supervisor::is_alive(const Member& member) const {
   return member.phase == Phase::starting || member.phase == Phase::inactive ||
          member.phase == Phase::active || member.phase == Phase::stopping;
 }
 
-bool Supervisor::ready(const Member& member, std::int64_t now_ns) const {
-  // each discovers the other processes and the launcher: (n − 1) + 1
+bool Supervisor::is_ready(const Member& member, std::int64_t now_ns) const {
+  // each component discovers the n − 1 other processes and the launcher
   const auto n = std::count_if(members_.begin(), members_.end(),
-                               [this](const Member& other) { return alive(other); });
+                               [this](const Member& other) { return is_alive(other); });
   return member.phase == Phase::inactive && member.heartbeat.peers >= n &&
-         now_ns - member.links_since_ns >= tuning_.settle_ns;
+         now_ns - member.links_changed_ns >= tuning_.settle_ns;
 }
 
 void Supervisor::spawn_due(std::int64_t now_ns) {
@@ -145,14 +145,14 @@ void Supervisor::spawn_due(std::int64_t now_ns) {
     member.heartbeat = {};
     member.finalized = false;
     member.requested_ns.reset();
-    act(Action::Kind::spawn, index_of(member));
+    add_action(Action::Kind::spawn, index_of(member));
   }
 }
 
 void Supervisor::await_all(std::int64_t now_ns) {
   std::string missing;
   for (const auto& member : members_)
-    if (member.phase != Phase::active && member.phase != Phase::ended && !ready(member, now_ns))
+    if (member.phase != Phase::active && member.phase != Phase::ended && !is_ready(member, now_ns))
       missing += (missing.empty() ? "" : ", ") + member.process.name;
   if (missing.empty()) {
     stage_ = Stage::activating;
@@ -169,9 +169,9 @@ void Supervisor::activate_next(std::int64_t now_ns) {
     all_active = false;
     const bool recently_requested =
         member.requested_ns && now_ns - *member.requested_ns < tuning_.resend_ns;
-    if (ready(member, now_ns) && !recently_requested) {
+    if (is_ready(member, now_ns) && !recently_requested) {
       member.requested_ns = now_ns;
-      act(Action::Kind::activate, index_of(member));
+      add_action(Action::Kind::activate, index_of(member));
     }
     if (stage_ == Stage::activating) return;  // in order: one at a time
   }
@@ -182,17 +182,17 @@ void Supervisor::activate_next(std::int64_t now_ns) {
 }
 
 void Supervisor::stop_next(std::int64_t now_ns) {
-  bool waiting = false;  // for a member that is not finalized
+  bool is_waiting = false;  // a member has received its stop request and is not finalized
   bool all_ended = true;
   for (auto member = members_.rbegin(); member != members_.rend(); ++member) {
-    if (!alive(*member)) continue;
+    if (!is_alive(*member)) continue;
     all_ended = false;
-    if (!member->requested_ns && !waiting) {
+    if (!member->requested_ns && !is_waiting) {
       member->phase = Phase::stopping;
       member->requested_ns = now_ns;
-      act(Action::Kind::terminate, index_of(*member));
+      add_action(Action::Kind::terminate, index_of(*member));
     }
-    waiting |= !member->finalized;
+    is_waiting |= !member->finalized;
     kill_if_overdue(*member, now_ns);
   }
   if (all_ended) stage_ = Stage::done;
@@ -204,10 +204,10 @@ void Supervisor::kill_if_overdue(Member& member, std::int64_t now_ns) {
   member.killed = true;
   print(member.process.name + " did not stop within " + seconds(tuning_.stop_timeout_ns) +
         "; killing it");
-  act(Action::Kind::kill, index_of(member));
+  add_action(Action::Kind::kill, index_of(member));
 }
 
-void Supervisor::act(Action::Kind kind, std::size_t index, std::string text) {
+void Supervisor::add_action(Action::Kind kind, std::size_t index, std::string text) {
   actions_.push_back({kind, index, std::move(text)});
 }
 

@@ -10,14 +10,15 @@
 #include "launch/erp/run/back_off.hpp"
 #include "launch/erp/run/process.hpp"
 
-/// The life cycle of a graph as a pure state machine: inputs are events and time, outputs are
-/// actions.
+/// The life cycle of a graph as a state machine without side effects: inputs are events and time,
+/// outputs are actions.
 ///
 ///   starting ──all ready──▶ activating ──all active──▶ running ──stop──▶ stopping ──▶ done
 ///
 /// A component is ready when it is inactive, has discovered every other process and the launcher,
 /// and its links have not changed for `settle_ns`. Members are activated in the given order and
-/// stopped in reverse, each after the one before has reported `finalized` or has ended.
+/// stopped in reverse order. Each is stopped after the preceding one has reported `finalized` or
+/// has ended.
 namespace launch {
 
 /// A process under supervision.
@@ -35,8 +36,9 @@ struct Heartbeat {
 
 /// All values are chosen.
 struct Tuning {
-  std::int64_t settle_ns = 200'000'000;  ///< links unchanged for this time
-  std::int64_t resend_ns = 200'000'000;  ///< until an activation without effect is sent again
+  std::int64_t settle_ns =
+      200'000'000;  ///< time without a change of links before a component is ready
+  std::int64_t resend_ns = 200'000'000;  ///< time until an activation without effect is sent again
   std::int64_t start_timeout_ns = 60'000'000'000;
   std::int64_t stop_timeout_ns = 5'000'000'000;  ///< from SIGTERM to SIGKILL
   BackOff::Tuning restart;
@@ -62,8 +64,9 @@ class Supervisor {
   void tick(std::int64_t now_ns);
   void on_heartbeat(std::size_t member, const Heartbeat& heartbeat, std::int64_t now_ns);
   void on_exit(std::size_t member, const Ending& ending, std::int64_t now_ns);
-  /// Stops the run in order. `exit_code` is 0 at the user's request; the largest code given counts.
-  void stop(const std::string& why, int exit_code, std::int64_t now_ns);
+  /// Stops the run in order. `exit_code` is 0 at the user's request. Of several calls, the largest
+  /// code applies.
+  void stop(const std::string& reason, int exit_code, std::int64_t now_ns);
   void kill_now();
 
   std::vector<Action> take_actions();
@@ -79,25 +82,25 @@ class Supervisor {
     BackOff back_off;
     Phase phase = Phase::waiting;
     Heartbeat heartbeat;
-    std::int64_t links_since_ns = 0;           ///< when the links last changed
+    std::int64_t links_changed_ns = 0;         ///< when the links last changed
     std::optional<std::int64_t> requested_ns;  ///< time of the last request to activate or to end
     std::int64_t spawn_due_ns = 0;
     bool killed = false;
-    bool finalized = false;  ///< has reported `finalized`; only the process has to end
+    bool finalized = false;  ///< has reported `finalized`; only its process still has to end
     std::size_t restarts = 0;
   };
 
-  bool alive(const Member& member) const;
-  bool ready(const Member& member, std::int64_t now_ns) const;
+  bool is_alive(const Member& member) const;
+  bool is_ready(const Member& member, std::int64_t now_ns) const;
   void spawn_due(std::int64_t now_ns);
   void await_all(std::int64_t now_ns);
   void activate_next(std::int64_t now_ns);
   void stop_next(std::int64_t now_ns);
   void kill_if_overdue(Member& member, std::int64_t now_ns);
   void restart(std::size_t index, const Ending& ending, std::int64_t now_ns);
-  void fail(std::size_t index, const std::string& why, int exit_code, std::int64_t now_ns);
-  void act(Action::Kind kind, std::size_t index = 0, std::string text = "");
-  void print(const std::string& text) { act(Action::Kind::print, 0, text); }
+  void fail(std::size_t index, const std::string& reason, int exit_code, std::int64_t now_ns);
+  void add_action(Action::Kind kind, std::size_t index = 0, std::string text = "");
+  void print(const std::string& text) { add_action(Action::Kind::print, 0, text); }
   std::size_t index_of(const Member& member) const {
     return static_cast<std::size_t>(&member - members_.data());
   }

@@ -27,10 +27,10 @@ using Files = node::SecurityFiles;
 using Bio = std::unique_ptr<BIO, decltype(&BIO_free)>;
 using Key = std::unique_ptr<EVP_PKEY, decltype(&EVP_PKEY_free)>;
 using Certificate = std::unique_ptr<X509, decltype(&X509_free)>;
-using Signed = std::unique_ptr<PKCS7, decltype(&PKCS7_free)>;
+using Signature = std::unique_ptr<PKCS7, decltype(&PKCS7_free)>;
 
-void check(bool worked, const char* operation) {
-  if (!worked) throw std::runtime_error(std::string("libcrypto cannot ") + operation);
+void check(bool success, const char* operation) {
+  if (!success) throw std::runtime_error(std::string("libcrypto cannot ") + operation);
 }
 
 struct Party {
@@ -55,47 +55,48 @@ void set_random_serial(X509* certificate) {
         "set a serial number");
 }
 
-void add_name(X509_NAME* into, const char* organisation, const char* name) {
+void add_name(X509_NAME* name_entry, const char* organisation, const char* name) {
   const auto add = [&](const char* field, const char* value) {
     const auto* text = reinterpret_cast<const unsigned char*>(value);
-    check(X509_NAME_add_entry_by_txt(into, field, MBSTRING_ASC, text, -1, -1, 0) == 1,
+    check(X509_NAME_add_entry_by_txt(name_entry, field, MBSTRING_ASC, text, -1, -1, 0) == 1,
           "name a certificate");
   };
   add("O", organisation), add("CN", name);
 }
 
-/// Fills the certificate of `subject` and signs it with the key of `by`.
-void certify(Party& subject, const Party& by, const Validity& validity) {
-  X509* c = subject.certificate.get();
-  check(X509_set_version(c, X509_VERSION_3) == 1, "make a certificate");
-  set_random_serial(c);
-  check(ASN1_TIME_set(X509_getm_notBefore(c), validity.from_s) &&
-            ASN1_TIME_set(X509_getm_notAfter(c), validity.until_s),
+/// Fills in the certificate of `subject` and signs it with the key of `issuer`.
+void certify(Party& subject, const Party& issuer, const Validity& validity) {
+  X509* certificate = subject.certificate.get();
+  check(X509_set_version(certificate, X509_VERSION_3) == 1, "make a certificate");
+  set_random_serial(certificate);
+  check(ASN1_TIME_set(X509_getm_notBefore(certificate), validity.from_s) &&
+            ASN1_TIME_set(X509_getm_notAfter(certificate), validity.until_s),
         "date a certificate");
-  add_name(X509_get_subject_name(c), security_organisation, subject.name);
-  check(X509_set_issuer_name(c, X509_get_subject_name(by.certificate.get())) == 1,
+  add_name(X509_get_subject_name(certificate), security_organisation, subject.name);
+  check(X509_set_issuer_name(certificate, X509_get_subject_name(issuer.certificate.get())) == 1,
         "name an issuer");
-  check(X509_set_pubkey(c, subject.key.get()) == 1, "certify a key");
-  const bool authority = &subject == &by;
-  extend(c, NID_basic_constraints, authority ? "critical,CA:TRUE" : "critical,CA:FALSE");
-  extend(c, NID_key_usage,
-         authority ? "critical,keyCertSign,digitalSignature"
-                   : "critical,digitalSignature,keyAgreement");
-  check(X509_sign(c, by.key.get(), EVP_sha256()) > 0, "sign a certificate");
+  check(X509_set_pubkey(certificate, subject.key.get()) == 1, "certify a key");
+  const bool is_authority = &subject == &issuer;
+  extend(certificate, NID_basic_constraints,
+         is_authority ? "critical,CA:TRUE" : "critical,CA:FALSE");
+  extend(certificate, NID_key_usage,
+         is_authority ? "critical,keyCertSign,digitalSignature"
+                      : "critical,digitalSignature,keyAgreement");
+  check(X509_sign(certificate, issuer.key.get(), EVP_sha256()) > 0, "sign a certificate");
 }
 
 /// Writes a document as S/MIME, the format required by DDS Security.
-void write_signed(BIO* out, const std::string& text, const Party& by) {
+void write_signed(BIO* out, const std::string& text, const Party& issuer) {
   constexpr int flags = PKCS7_TEXT | PKCS7_DETACHED;
   const Bio in(BIO_new_mem_buf(text.data(), static_cast<int>(text.size())), BIO_free);
-  const Signed made(PKCS7_sign(by.certificate.get(), by.key.get(), nullptr, in.get(), flags),
-                    PKCS7_free);
-  check(
-      made && BIO_reset(in.get()) == 1 && SMIME_write_PKCS7(out, made.get(), in.get(), flags) == 1,
-      "sign a document");
+  const Signature signature(
+      PKCS7_sign(issuer.certificate.get(), issuer.key.get(), nullptr, in.get(), flags), PKCS7_free);
+  check(signature && BIO_reset(in.get()) == 1 &&
+            SMIME_write_PKCS7(out, signature.get(), in.get(), flags) == 1,
+        "sign a document");
 }
 
-/// Creates the files of a new folder; existing files are not overwritten.
+/// Creates a new folder and files in it. Does not overwrite existing files.
 class Writer {
  public:
   explicit Writer(fs::path folder) : folder_(std::move(folder)) {
@@ -113,7 +114,7 @@ class Writer {
     if (descriptor < 0) throw std::runtime_error(file.string() + ": " + std::strerror(errno));
     const Bio out(BIO_new_fd(descriptor, BIO_CLOSE), BIO_free);
     write_into(out.get());
-    written_.push_back(file);
+    files_.push_back(file);
   }
   void write(const char* certificate, const char* key, const Party& party) {
     write(certificate, 0644, [&](BIO* out) {
@@ -125,11 +126,11 @@ class Writer {
             "write a key");
     });
   }
-  const std::vector<fs::path>& written() const { return written_; }
+  const std::vector<fs::path>& files() const { return files_; }
 
  private:
   fs::path folder_;
-  std::vector<fs::path> written_;
+  std::vector<fs::path> files_;
 };
 
 constexpr std::int64_t day_s = 86400;
@@ -153,7 +154,7 @@ std::vector<fs::path> make_security(const fs::path& folder, const Validity& vali
                [&](BIO* out) { write_signed(out, governance_text(), authority); });
   writer.write(Files::permissions, 0644,
                [&](BIO* out) { write_signed(out, permissions_text(validity), authority); });
-  return writer.written();
+  return writer.files();
 }
 
 }  // namespace launch

@@ -10,13 +10,14 @@ namespace launch {
 struct Validity {
   std::int64_t from_s = 0, until_s = 0;
 };
-/// From one day ago, for machines whose clocks are slow, for `days` days from now.
+/// From one day ago until `days` days from now. The day in the past is for machines with a slow
+/// clock.
 Validity valid_for_days(int days);
 
-/// Writes a certificate authority, an identity with a certificate of it, and the signed governance
-/// and permissions documents into `folder`, which must not exist or be empty. Returns the files.
-/// Only their owner can read the keys. Throws std::invalid_argument for a folder that is not empty,
-/// std::runtime_error if a file cannot be written.
+/// Writes to `folder` a certificate authority, an identity with a certificate issued by it, and the
+/// signed governance and permissions documents. `folder` must be empty or must not exist. Returns
+/// the files. Only their owner can read the keys. Throws std::invalid_argument for a folder that is
+/// not empty, std::runtime_error if a file cannot be written.
 std::vector<std::filesystem::path> make_security(const std::filesystem::path& folder,
                                                  const Validity& validity);
 

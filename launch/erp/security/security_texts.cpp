@@ -15,7 +15,7 @@ constexpr auto header = R"(<?xml version="1.0" encoding="utf-8"?>
 // the range of ERP_DOMAIN
 constexpr auto domains = "<domains><id_range><min>0</min><max>230</max></id_range></domains>";
 
-// Metadata protection encrypts whole submessages including their data, so data protection is not
+// Metadata protection encrypts complete submessages including their data: data protection is not
 // needed.
 constexpr auto rule = R"(
   <allow_unauthenticated_participants>false</allow_unauthenticated_participants>
@@ -37,11 +37,11 @@ std::string utc(std::int64_t time_s) {
   return fmt::format("{:%Y-%m-%dT%H:%M:%S}", fmt::gmtime(static_cast<std::time_t>(time_s)));
 }
 
-std::string allow(const char* what) {
+std::string allow(const char* action) {
   return fmt::format(
       "<allow_rule>{1}<{0}><topics><topic>*</topic></topics>"
       "<partitions><partition>*</partition></partitions></{0}></allow_rule>\n",
-      what, domains);
+      action, domains);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 
 #include "launch/erp/security/security.hpp"
 
-/// The two documents that the authority signs (DDS Security 1.1, chapter 9.4).
+/// The two documents that the certificate authority signs (DDS Security 1.1, chapter 9.4).
 namespace launch {
 
 inline constexpr const char* security_organisation = "erp";

@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-/// Text tables. Pure.
+/// Text tables.
 namespace launch {
 
-/// One line per row; each cell padded to the widest cell of its column.
+/// One line per row. Each cell is padded to the width of the widest cell in its column.
 std::vector<std::string> align(const std::vector<std::vector<std::string>>& rows,
                                const std::vector<bool>& right_aligned);
 

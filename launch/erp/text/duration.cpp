@@ -23,8 +23,8 @@ double parse_duration_s(const std::string& text) {
 std::string to_text_s(double duration_s) {
   char text[48];
   if (duration_s >= 60) {
-    const auto whole = static_cast<long>(std::lround(duration_s));
-    std::snprintf(text, sizeof text, "%ld min %02ld s", whole / 60, whole % 60);
+    const auto rounded_s = static_cast<long>(std::lround(duration_s));
+    std::snprintf(text, sizeof text, "%ld min %02ld s", rounded_s / 60, rounded_s % 60);
   } else {
     const int decimals = duration_s < 10 ? 2 : duration_s < 59.95 ? 1 : 0;
     std::snprintf(text, sizeof text, "%.*f s", decimals, duration_s);

@@ -9,7 +9,8 @@ namespace launch {
 /// Throws std::invalid_argument for other texts and for values of 0 or less.
 double parse_duration_s(const std::string& text);
 
-/// At most three significant digits below a minute: "0.85 s", "20 s", "2 min 05 s".
+/// A duration as text, below a minute with at most three significant digits: "0.85 s", "20 s", "2
+/// min 05 s".
 std::string to_text_s(double duration_s);
 
 }  // namespace launch

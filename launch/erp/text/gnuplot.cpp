@@ -17,10 +17,10 @@ extern char** environ;
 namespace launch {
 namespace {
 
-using Temporary = std::unique_ptr<std::FILE, decltype(&std::fclose)>;
+using TemporaryFile = std::unique_ptr<std::FILE, decltype(&std::fclose)>;
 
-Temporary temporary() {
-  Temporary file(std::tmpfile(), &std::fclose);
+TemporaryFile make_temporary_file() {
+  TemporaryFile file(std::tmpfile(), &std::fclose);
   if (!file)
     throw recording::WriteError(std::string("cannot make a temporary file: ") +
                                 std::strerror(errno) + "; check TMPDIR");
@@ -37,7 +37,8 @@ std::string terminal(const std::string& file, int panels) {
                                   ": can draw .svg and .png only; choose one of these extensions");
 }
 
-/// Runs gnuplot with three open files as stdin, stdout and stderr; returns its wait status.
+/// Runs gnuplot with the file descriptors `in`, `out` and `err` as stdin, stdout and stderr.
+/// Returns its wait status.
 int run_gnuplot(int in, int out, int err) {
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
@@ -58,8 +59,8 @@ int run_gnuplot(int in, int out, int err) {
   return status;
 }
 
-std::string first_characters(std::FILE* file) {
-  char text[400];
+std::string first_lines(std::FILE* file) {
+  char text[400];  // enough for an error message
   std::rewind(file);
   std::string message(text, std::fread(text, 1, sizeof text, file));
   while (message.ends_with('\n')) message.pop_back();
@@ -70,13 +71,13 @@ std::string first_characters(std::FILE* file) {
 
 void draw(const PlotScript& script, const std::string& file) {
   const std::string commands = terminal(file, script.panels) + script.commands;
-  const Temporary in = temporary(), err = temporary();
+  const TemporaryFile in = make_temporary_file(), err = make_temporary_file();
   if (std::fwrite(commands.data(), 1, commands.size(), in.get()) != commands.size() ||
       std::fflush(in.get()) != 0)
     throw recording::WriteError("cannot write gnuplot's commands; free some space in TMPDIR");
   std::rewind(in.get());
-  const std::string part = file + ".part";
-  const int out = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  const std::string partial_file = file + ".part";
+  const int out = ::open(partial_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (out < 0)
     throw std::invalid_argument(file + ": cannot create: " + std::strerror(errno) +
                                 "; name another file with --out");
@@ -84,14 +85,14 @@ void draw(const PlotScript& script, const std::string& file) {
     const int status = run_gnuplot(fileno(in.get()), out, fileno(err.get()));
     const off_t size = ::lseek(out, 0, SEEK_END);
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || size <= 0)
-      throw recording::WriteError(file + ": gnuplot failed: " + first_characters(err.get()) +
+      throw recording::WriteError(file + ": gnuplot failed: " + first_lines(err.get()) +
                                   "; check the disk, or export the recording and draw it yourself");
-    if (::rename(part.c_str(), file.c_str()) != 0)
+    if (::rename(partial_file.c_str(), file.c_str()) != 0)
       throw recording::WriteError(file + ": cannot rename: " + std::strerror(errno) +
                                   "; check the folder");
   } catch (...) {
     ::close(out);
-    ::unlink(part.c_str());
+    ::unlink(partial_file.c_str());
     throw;
   }
   ::close(out);

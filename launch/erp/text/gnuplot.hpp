@@ -13,8 +13,8 @@ struct PlotScript {
 constexpr int picture_width = 1400;  ///< pixels
 constexpr int picture_height(int panels) { return 110 + 230 * panels; }
 
-/// Runs gnuplot and writes `file` atomically. Throws RecordingError when its name does not end in
-/// .svg or .png or when gnuplot is not installed, WriteError when gnuplot fails,
+/// Runs gnuplot and writes `file` atomically. Throws RecordingError when the file name does not end
+/// in .svg or .png or when gnuplot is not installed, WriteError when gnuplot fails,
 /// std::invalid_argument when the file cannot be created.
 void draw(const PlotScript& script, const std::string& file);
 

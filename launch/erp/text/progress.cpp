@@ -9,24 +9,26 @@
 namespace launch {
 
 Progress::Progress(std::ostream& out)
-    : out_(out), terminal_(&out == &std::cerr && isatty(STDERR_FILENO) == 1) {}
+    : out_(out), is_terminal_(&out == &std::cerr && isatty(STDERR_FILENO) == 1) {}
 
 Progress::~Progress() {
-  if (terminal_) out_ << "\r\033[K" << std::flush;
+  if (is_terminal_) out_ << "\r\033[K" << std::flush;
 }
 
-void Progress::show(const std::string& what, double share) {
+void Progress::show(const std::string& what, double fraction) {
   using namespace std::chrono;
   const auto now = steady_clock::now();
-  if (!terminal_ || now - shown_ < milliseconds(100)) return;
-  shown_ = now;
-  constexpr int width = 30;
-  const int done = static_cast<int>(width * std::clamp(share, 0.0, 1.0));
+  if (!is_terminal_ || now - last_shown_ < milliseconds(100)) return;
+  last_shown_ = now;
+  constexpr int width = 30;              // columns of the bar
+  constexpr double min_fraction = 0.02;  // below it, the remaining time is not estimated; chosen
+  const int filled_columns = static_cast<int>(width * std::clamp(fraction, 0.0, 1.0));
   const double spent_s = duration<double>(now - start_).count();
   const std::string remaining =
-      share > 0.02 ? fmt::format("{:.0f} s left", spent_s * (1 - share) / share) : "";
-  out_ << fmt::format("\r\033[K[{:=<{}}{:<{}}] {:3.0f} %  {}  {}", "", done, "", width - done,
-                      100 * share, what, remaining)
+      fraction > min_fraction ? fmt::format("{:.0f} s left", spent_s * (1 - fraction) / fraction)
+                              : "";
+  out_ << fmt::format("\r\033[K[{:=<{}}{:<{}}] {:3.0f} %  {}  {}", "", filled_columns, "",
+                      width - filled_columns, 100 * fraction, what, remaining)
        << std::flush;
 }
 

@@ -11,13 +11,13 @@ class Progress {
  public:
   explicit Progress(std::ostream& out);
   ~Progress();
-  /// `share` of the work is complete, 0 … 1.
-  void show(const std::string& what, double share);
+  /// `fraction`: completed part of the work, 0 … 1.
+  void show(const std::string& what, double fraction);
 
  private:
   std::ostream& out_;
-  bool terminal_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), shown_{};
+  bool is_terminal_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), last_shown_{};
 };
 
 }  // namespace launch

@@ -22,10 +22,10 @@ void write_file(const std::string& file, const std::string& text) {
 }
 
 void make_folder(const std::string& folder) {
-  std::error_code failed;
-  std::filesystem::create_directories(folder, failed);
-  if (failed)
-    throw std::invalid_argument(folder + ": this folder cannot be made: " + failed.message() +
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+    throw std::invalid_argument(folder + ": this folder cannot be made: " + error.message() +
                                 "; name another folder");
 }
 

@@ -23,7 +23,8 @@ std::string options_of(const CLI::App& app) {
   return words;
 }
 
-/// One case of the script for `app`, reached by the words `path`, and those of its verbs.
+/// Prints the case of the script for `app`, with the preceding words `path`, and the cases of its
+/// verbs.
 void print_cases(const CLI::App& app, const std::string& path, std::ostream& out) {
   out << "    '" << path << "') verbs='" << verbs_of(app) << "' options='" << options_of(app)
       << "' ;;\n";

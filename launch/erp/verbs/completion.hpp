@@ -4,7 +4,8 @@
 
 namespace launch {
 
-/// A script for bash-completion that offers verbs, and after `-` the options of a verb; files elsewhere.
+/// A script for bash-completion. It offers verbs, after `-` the options of a verb, otherwise file
+/// names.
 void print_bash_completion(const CLI::App& app, std::ostream& out);
 
 }  // namespace launch

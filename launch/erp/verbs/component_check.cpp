@@ -19,7 +19,8 @@ namespace {
 
 constexpr std::int64_t timeout_ns = 10'000'000'000;  // chosen
 
-/// Starts a program whose `descriptor`, stdout or stderr, is the write end `pipe_end` of a pipe.
+/// Starts a program. Its `descriptor` (stdout or stderr) becomes the write end `pipe_end` of a
+/// pipe.
 pid_t spawn(std::vector<std::string>& argv, int descriptor, int pipe_end) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -34,7 +35,7 @@ pid_t spawn(std::vector<std::string>& argv, int descriptor, int pipe_end) {
   return pid;
 }
 
-/// Reads until the other side closes the pipe; false at the timeout.
+/// Reads until the other side closes the pipe. Returns false at the timeout.
 bool read_all(int descriptor, std::string& text) {
   const auto end_ns = node::monotonic_ns() + timeout_ns;
   std::array<char, 4096> buffer{};
@@ -48,51 +49,51 @@ bool read_all(int descriptor, std::string& text) {
   }
 }
 
-struct Answer {
-  bool finished = false;
+struct Output {
+  bool is_complete = false;
   int status = 0;
   std::string text;
 };
 
-/// Runs a program and reads what it writes to `descriptor`; kills it at the timeout.
-Answer request(std::vector<std::string>& argv, int descriptor) {
-  std::array<int, 2> ends{};
-  if (pipe2(ends.data(), O_CLOEXEC) != 0)
+/// Runs a program and reads its output on `descriptor`; kills it at the timeout.
+Output run_program(std::vector<std::string>& argv, int descriptor) {
+  std::array<int, 2> pipe_ends{};
+  if (pipe2(pipe_ends.data(), O_CLOEXEC) != 0)
     throw std::system_error(errno, std::generic_category(), "pipe");
-  Answer answer;
+  Output output;
   try {
-    const pid_t pid = spawn(argv, descriptor, ends[1]);
-    close(ends[1]);
-    answer.finished = read_all(ends[0], answer.text);
-    if (!answer.finished) kill(pid, SIGKILL);
-    waitpid(pid, &answer.status, 0);
-    close(ends[0]);
+    const pid_t pid = spawn(argv, descriptor, pipe_ends[1]);
+    close(pipe_ends[1]);
+    output.is_complete = read_all(pipe_ends[0], output.text);
+    if (!output.is_complete) kill(pid, SIGKILL);
+    waitpid(pid, &output.status, 0);
+    close(pipe_ends[0]);
   } catch (...) {
-    close(ends[0]), close(ends[1]);
+    close(pipe_ends[0]), close(pipe_ends[1]);
     throw;
   }
-  return answer;
+  return output;
 }
 
 }  // namespace
 
 std::string check_component(std::vector<std::string> argv) {
   argv.push_back("--check");
-  const Answer answer = request(argv, STDERR_FILENO);
-  if (!answer.finished)
+  const Output output = run_program(argv, STDERR_FILENO);
+  if (!output.is_complete)
     return argv[0] + ": --check did not finish within 10 s; run it by hand with --check";
-  if (answer.status == 0) {
-    std::cerr << answer.text;  // warnings
+  if (output.status == 0) {
+    std::cerr << output.text;  // warnings
     return "";
   }
-  if (!answer.text.empty()) return answer.text;
+  if (!output.text.empty()) return output.text;
   return argv[0] + ": --check failed without a message; run it by hand with --check";
 }
 
 std::string describe_component(const std::string& program) {
   std::vector<std::string> argv{program, "--describe"};
-  const Answer answer = request(argv, STDOUT_FILENO);
-  if (answer.finished && answer.status == 0) return answer.text;
+  const Output output = run_program(argv, STDOUT_FILENO);
+  if (output.is_complete && output.status == 0) return output.text;
   throw std::invalid_argument(program +
                               ": --describe failed; name a component, a program of node::run");
 }

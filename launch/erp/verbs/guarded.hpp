@@ -7,7 +7,7 @@
 namespace launch {
 
 /// Runs `work` and returns its exit code. Prints an error of the recording on stderr and returns 1
-/// (not written) or 2 (not readable).
+/// (cannot be written) or 2 (cannot be read).
 template <class Work>
 int guarded(Work&& work) {
   try {

@@ -9,7 +9,8 @@
 namespace launch {
 namespace {
 
-/// One character of UTF-8 as roff: special characters escaped, others than ASCII by number.
+/// One UTF-8 character in roff: special characters are escaped, characters outside ASCII are given
+/// by number.
 std::string roff_character(const std::string& text, std::size_t& i) {
   const auto byte = static_cast<unsigned char>(text[i++]);
   if (byte == '\\') return "\\e";
@@ -23,7 +24,8 @@ std::string roff_character(const std::string& text, std::size_t& i) {
   return number;
 }
 
-/// Text of a paragraph; lines stay lines of the source, and none is taken for a request.
+/// Text of a paragraph in roff. Line breaks are kept; `\&` prevents that a line is read as a roff
+/// request.
 std::string roff(const std::string& text) {
   std::string out;
   for (std::size_t i = 0; i < text.size();) {
@@ -44,8 +46,9 @@ std::string type_of(const CLI::Option& option) {
 std::string names_of(const CLI::Option& option) {
   if (option.nonpositional()) {
     std::string names = option.get_name(false, true);
-    for (std::size_t at = names.find(','); at != names.npos; at = names.find(',', at + 2))
-      names.replace(at, 1, ", ");
+    for (std::size_t comma = names.find(','); comma != names.npos;
+         comma = names.find(',', comma + 2))
+      names.replace(comma, 1, ", ");
     return names;
   }
   return option.get_name(true);
@@ -90,7 +93,7 @@ void print_verb(const CLI::App& verb, const std::string& name, const std::string
     print_verb(*inner, name + " " + inner->get_name(), common_footer, out);
 }
 
-std::string upper(std::string text) {
+std::string to_upper(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   return text;
@@ -101,14 +104,15 @@ std::string upper(std::string text) {
 void print_man_page(const CLI::App& app, std::ostream& out) {
   const std::string name = app.get_name();
   out << ".\\\" Generated from the command line of " << name << "; do not edit.\n.TH "
-      << upper(name) << " 1 \"\" \"" << roff(app.version()) << "\" \"User Commands\"\n.SH NAME\n"
+      << to_upper(name) << " 1 \"\" \"" << roff(app.version()) << "\" \"User Commands\"\n.SH NAME\n"
       << name << " \\- " << roff(app.get_description()) << "\n.SH SYNOPSIS\n\\fB" << name
       << "\\fR \\fIVERB\\fR [options]\n.br\n\\fB" << name
       << "\\fR \\fIVERB\\fR \\fB\\-\\-help\\fR\n.br\n\\fB" << name
       << "\\fR \\fB\\-\\-version\\fR\n";
   std::string group;
   for (const auto* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
-    if (verb->get_group() != group) out << ".SH " << roff(upper(group = verb->get_group())) << '\n';
+    if (verb->get_group() != group)
+      out << ".SH " << roff(to_upper(group = verb->get_group())) << '\n';
     print_verb(*verb, name + " " + verb->get_name(), app.get_footer(), out);
   }
   out << ".SH EXIT STATUS AND ENVIRONMENT\n" << roff(app.get_footer()) << '\n';

@@ -11,8 +11,8 @@
 /// Helpers of all verbs.
 namespace launch {
 
-/// Prints to stdout, or writes `file` if it is not empty. Writes after the computation has ended,
-/// since its input may include that file.
+/// Prints to stdout, or writes to `file` if its name is not empty. Writes only after `print` has
+/// returned, because `print` may read that file. Returns the exit code of `print`.
 inline int write_output(const std::string& file, const std::function<int(std::ostream&)>& print) {
   std::ostringstream text;
   const int code = print(text);

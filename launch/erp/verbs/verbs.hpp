@@ -2,7 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
-/// The families of verbs. Each function adds its verbs to `app`; parsing a verb sets `chosen`.
+/// The families of verbs. Each function adds its verbs to `app`. Parsing a verb sets `chosen`.
 namespace launch {
 
 /// Function that executes the chosen verb; returns the exit code.

@@ -25,7 +25,7 @@ namespace sim::loop_shaping {
 /// `<loops crossover_Hz="2.5"/>`, a file.
 struct JointShape {
   static constexpr auto element = "loops";
-  static constexpr auto meaning = "Weights of the H-infinity loops of a robot.";
+  static constexpr auto description = "Weights of the H-infinity loops of a robot.";
   xml::Place place;
   double crossover_Hz = 2.5;
   double integral_Hz = 0.3;

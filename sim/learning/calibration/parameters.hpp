@@ -20,7 +20,7 @@ enum class Quantity { attachments, length, stiffness, radius };
 /// One `<vary>` of a calibration's file.
 struct Vary {
   static constexpr auto element = "vary";
-  static constexpr auto meaning = "Quantity to identify.";
+  static constexpr auto description = "Quantity to identify.";
   xml::Place place;
   Quantity what = Quantity::attachments;
   std::string on = "*";
@@ -39,7 +39,7 @@ struct Vary {
 /// `<calibration>`, a file.
 struct Choice {
   static constexpr auto element = "calibration";
-  static constexpr auto meaning = "Quantities that erp calibrate run identifies.";
+  static constexpr auto description = "Quantities that erp calibrate run identifies.";
   xml::Place place;
   std::vector<Vary> list;
   void visit(auto& v) { v.list(list); }

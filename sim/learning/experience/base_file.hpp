@@ -9,14 +9,14 @@ namespace sim::experience {
 /// A starting posture: `<start line_m="…"/>`, line lengths by actuator.
 struct StartRow {
   static constexpr auto element = "start", plural = "starts";
-  static constexpr auto meaning = "Starting posture.";
+  static constexpr auto description = "Starting posture.";
   xml::Place place;
   std::vector<double> line_m;
   void visit(auto& v) { v.required("line_m", line_m, "Line length of each actuator."); }
 };
 struct ExperienceRow {
   static constexpr auto element = "experience", plural = "experiences";
-  static constexpr auto meaning = "Reach with its result.";
+  static constexpr auto description = "Reach with its result.";
   xml::Place place;
   int start = 0;
   std::vector<double> scales_Vs;
@@ -29,7 +29,7 @@ struct ExperienceRow {
 };
 struct BaseFile {
   static constexpr auto element = "experience_base";
-  static constexpr auto meaning = "Stored experiences, and all that a reach needs.";
+  static constexpr auto description = "Stored experiences, and all that a reach needs.";
   xml::Place place;
   int rounds = 0;
   std::string seed;

@@ -22,7 +22,7 @@ enum class Role { agonist, antagonist };
 /// brakes.
 struct Burst {
   static constexpr auto element = "burst", plural = "pattern";
-  static constexpr auto meaning = "Burst of a voltage pattern, a raised cosine.";
+  static constexpr auto description = "Burst of a voltage pattern, a raised cosine.";
   xml::Place place;
   Role of = Role::agonist;
   double at_s = 0, for_s = 0, share = 1;
@@ -39,7 +39,7 @@ struct Burst {
 /// up.
 struct Drive {
   static constexpr auto element = "drive", plural = "drives";
-  static constexpr auto meaning = "Muscles that move one degree of freedom.";
+  static constexpr auto description = "Muscles that move one degree of freedom.";
   xml::Place place;
   std::string name;
   std::vector<double> shares;

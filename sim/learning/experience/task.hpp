@@ -11,7 +11,7 @@ namespace sim::experience {
 
 struct Task {
   static constexpr auto element = "acquisition";
-  static constexpr auto meaning = "Training of erp learn experience.";
+  static constexpr auto description = "Training of erp learn experience.";
   xml::Place place;
   std::string starts;
   std::string rules;

@@ -21,7 +21,7 @@ struct LengthSamples {
 /// One muscle of `<muscles>`, a file: l = centre + spread · net(x).
 struct LearnedMuscle {
   static constexpr auto element = "muscle";
-  static constexpr auto meaning = "Network from posture to the length of one tendon.";
+  static constexpr auto description = "Network from posture to the length of one tendon.";
   xml::Place place;
   std::string name;
   double centre_m = 0, spread_m = 0, left_m = 0;
@@ -39,7 +39,7 @@ struct LearnedMuscle {
 };
 struct LearnedMuscles {
   static constexpr auto element = "muscles";
-  static constexpr auto meaning = "Learned tendon lengths of a robot.";
+  static constexpr auto description = "Learned tendon lengths of a robot.";
   xml::Place place;
   std::string robot;
   std::vector<LearnedMuscle> list;

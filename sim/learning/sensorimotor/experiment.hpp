@@ -12,7 +12,8 @@ namespace sim::sensorimotor {
 /// about the centre of one camera's image.
 struct Grid {
   static constexpr auto element = "grid";
-  static constexpr auto meaning = "Equally spaced goals about the centre of one camera's image.";
+  static constexpr auto description =
+      "Equally spaced goals about the centre of one camera's image.";
   xml::Place place;
   int columns = 5, rows = 5;
   double half_width = 0, half_height = 0;
@@ -33,7 +34,7 @@ struct Grid {
 /// `<goal at="0.1 -0.2"/>`: in units of the senses, two per camera.
 struct GoalAt {
   static constexpr auto element = "goal";
-  static constexpr auto meaning = "One goal.";
+  static constexpr auto description = "One goal.";
   xml::Place place;
   std::vector<double> at;
   void visit(auto& v) {

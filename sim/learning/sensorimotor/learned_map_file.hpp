@@ -10,7 +10,7 @@ namespace sim::sensorimotor {
 /// A row of H: one sense, all muscles.
 struct SenseRow {
   static constexpr auto element = "sense";
-  static constexpr auto meaning = "Row of the map, one for each sense.";
+  static constexpr auto description = "Row of the map, one for each sense.";
   xml::Place place;
   std::vector<double> weights;
   void visit(auto& v) {
@@ -20,7 +20,7 @@ struct SenseRow {
 };
 struct GoalRow {
   static constexpr auto element = "goal";
-  static constexpr auto meaning = "Goal with its learned gains.";
+  static constexpr auto description = "Goal with its learned gains.";
   xml::Place place;
   std::vector<double> at, alpha, errors;
   void visit(auto& v) {
@@ -31,7 +31,7 @@ struct GoalRow {
 };
 struct LearnedMapFile {
   static constexpr auto element = "sensorimotor_learned", former_element = "sensorimotor_learnt";
-  static constexpr auto meaning = "Learned map from muscles to senses.";
+  static constexpr auto description = "Learned map from muscles to senses.";
   xml::Place place;
   int rounds = 0;
   std::string seed;

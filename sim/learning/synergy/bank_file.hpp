@@ -16,7 +16,7 @@ namespace sim::synergy {
 /// other muscles keep their length.
 struct LearnedMuscle {
   static constexpr auto element = "learned", former_element = "learnt", plural = "muscles";
-  static constexpr auto meaning = "Muscle that takes part.";
+  static constexpr auto description = "Muscle that takes part.";
   xml::Place place;
   std::string muscle;
   void visit(auto& v) {
@@ -26,7 +26,7 @@ struct LearnedMuscle {
 };
 struct PlanRow {
   static constexpr auto element = "plan", plural = "plans";
-  static constexpr auto meaning = "Stored motor plan.";
+  static constexpr auto description = "Stored motor plan.";
   xml::Place place;
   xml::Vec3 at_m{};
   double value = 1, rise_s = 0.8, overshoot = 0;
@@ -42,7 +42,7 @@ struct PlanRow {
 };
 struct BankFile {
   static constexpr auto element = "synergy_bank";
-  static constexpr auto meaning = "Motor plans, and all that a trial needs.";
+  static constexpr auto description = "Motor plans, and all that a trial needs.";
   xml::Place place;
   int rounds = 0;
   std::string seed;

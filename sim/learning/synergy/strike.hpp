@@ -16,7 +16,7 @@ namespace sim::synergy {
 /// `<bottle radius_m="0.0325" …/>`: sizes of the bottle and of the hand.
 struct BottleConfig {
   static constexpr auto element = "bottle";
-  static constexpr auto meaning = "Sizes of bottle and hand, and the reward.";
+  static constexpr auto description = "Sizes of bottle and hand, and the reward.";
   xml::Place place;
   double radius_m = 0.0325, height_m = 0.2;
   double hand_m = 0.04;

@@ -6,7 +6,7 @@ namespace sim::synergy {
 
 struct Task {
   static constexpr auto element = "striking";
-  static constexpr auto meaning = "Training of erp learn synergy.";
+  static constexpr auto description = "Training of erp learn synergy.";
   xml::Place place;
   std::string poses;
   int rounds = 60, batch = 40;

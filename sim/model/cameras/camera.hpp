@@ -19,7 +19,7 @@ using Pixel = Eigen::Vector2d;
 /// `<camera name="left" at_m="…" looks_at_m="…"/>`
 struct CameraConfig {
   static constexpr auto element = "camera";
-  static constexpr auto meaning =
+  static constexpr auto description =
       "Pinhole camera with radial distortion, with the parameters of OpenCV.";
   xml::Place place;
   std::string name;

@@ -10,7 +10,7 @@ namespace sim::cameras {
 /// `<marker body="forearm" at_m="0.05 0 -0.1"/>`: a ball's centre, in the body's frame.
 struct MarkerConfig {
   static constexpr auto element = "marker";
-  static constexpr auto meaning = "Bright ball on a body.";
+  static constexpr auto description = "Bright ball on a body.";
   xml::Place place;
   std::string body;
   xml::Vec3 at_m{0, 0, 0};
@@ -24,7 +24,7 @@ struct MarkerConfig {
 /// programs that predict its images.
 struct ViewConfig {
   static constexpr auto element = "camera_view";
-  static constexpr auto meaning = "Cameras and markers.";
+  static constexpr auto description = "Cameras and markers.";
   xml::Place place;
   std::vector<CameraConfig> cameras;
   std::vector<MarkerConfig> markers;

@@ -12,7 +12,7 @@ namespace sim {
 /// `<hand body="hand" at_m="0 0 -0.1"/>`: the reaching point, in its body's frame.
 struct HandConfig {
   static constexpr auto element = "hand";
-  static constexpr auto meaning = "Point of a body that reaches or strikes.";
+  static constexpr auto description = "Point of a body that reaches or strikes.";
   xml::Place place;
   std::string body;
   xml::Vec3 at_m{0, 0, 0};
@@ -26,7 +26,7 @@ struct HandConfig {
 /// targets.
 struct ZoneConfig {
   static constexpr auto element = "zone";
-  static constexpr auto meaning = "Box in the world that contains the targets of the training.";
+  static constexpr auto description = "Box in the world that contains the targets of the training.";
   xml::Place place;
   xml::Vec3 from_m{}, to_m{};
   void visit(auto& v) {

@@ -10,14 +10,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const fs::path broken = fs::path(ERP_SOURCE_DIR) / "tests/interfaces/broken";
+const fs::path broken_files = fs::path(ERP_SOURCE_DIR) / "tests/interfaces/broken";
 
 /// Reads a graph from a folder that contains the valid robot.xml and tracker.xml.
 erp::Graph read(const std::string& text) {
   const fs::path folder = fs::temp_directory_path() / ("erp_graph_" + std::to_string(getpid()));
   fs::create_directories(folder / "launch");
   for (const char* name : {"robot.xml", "tracker.xml"})
-    fs::copy_file(broken / "good" / name, folder / name, fs::copy_options::overwrite_existing);
+    fs::copy_file(broken_files / "good" / name, folder / name,
+                  fs::copy_options::overwrite_existing);
   std::ofstream(folder / "log.mcap").close();
   std::ofstream(folder / "launch/graph.xml") << text;
   struct Remove {
@@ -48,34 +49,34 @@ TEST_CASE("attributes absent from a graph have their defaults") {
   CHECK(graph.components[0].config.empty());
 }
 
-TEST_CASE("a component's type may be a path; the root of its config is the program's name") {
+TEST_CASE("a component's type may be a path; the root element of its config is the file name") {
   CHECK(read("<graph name='g' robot='../robot.xml'>"
              "<component name='mine' type='../build/tracker' config='../tracker.xml'/></graph>")
             .components.size() == 1);
 }
 
 TEST_CASE("a missing replay file is accepted while another device is selected") {
-  CHECK(read("<graph name='g' robot='../robot.xml' device='sim' replay='gone.mcap'/>").device ==
+  CHECK(read("<graph name='g' robot='../robot.xml' device='sim' replay='missing.mcap'/>").device ==
         erp::Device::sim);
 }
 
 TEST_CASE("all errors of a graph are reported at once") {
-  const std::string refused = example::refusal([] {
+  const std::string error_text = example::refusal([] {
     read(
         "<graph name='g' robot='none.xml' device='replay'>"
         "<component name='a' config='none.xml'/><component name='a'/></graph>");
   });
-  CHECK_THAT(refused, Catch::Contains("robot=\"none.xml\" is not a file"));
-  CHECK_THAT(refused, Catch::Contains("has no recording"));
-  CHECK_THAT(refused, Catch::Contains("config=\"none.xml\" is not a file"));
-  CHECK_THAT(refused, Catch::Contains("duplicate name \"a\""));
+  CHECK_THAT(error_text, Catch::Contains("robot=\"none.xml\" is not a file"));
+  CHECK_THAT(error_text, Catch::Contains("has no recording"));
+  CHECK_THAT(error_text, Catch::Contains("config=\"none.xml\" is not a file"));
+  CHECK_THAT(error_text, Catch::Contains("duplicate name \"a\""));
 }
 
-TEST_CASE("a config that is not well-formed is reported with the place in the config") {
-  const std::string refused = example::refusal([] {
+TEST_CASE("a config that is not well-formed XML is reported with its file, line and column") {
+  const std::string error_text = example::refusal([] {
     read(
         "<graph name='g' robot='graph.xml'><component name='c' "
         "config='graph.xml'/>\n<open></graph>");
   });
-  CHECK_THAT(refused, Catch::Contains("graph.xml:2:7: </graph> where <open> is open"));
+  CHECK_THAT(error_text, Catch::Contains("graph.xml:2:7: </graph> where <open> is open"));
 }

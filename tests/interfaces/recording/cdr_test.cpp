@@ -30,8 +30,8 @@ TEST_CASE(
 }
 
 TEST_CASE("big-endian and little-endian messages are decoded to equal values") {
-  const auto little = GENERATE(true, false);
-  test::CdrWriter cdr(little);
+  const auto is_little_endian = GENERATE(true, false);
+  test::CdrWriter cdr(is_little_endian);
   cdr.put<std::int64_t>(-2).put<float>(0.1f).put<std::uint16_t>(65535).string("hé\"\n");
   CHECK(decoded("int64 a\nfloat32 b\nuint16 c\nstring d\n", cdr.bytes) ==
         "{\"a\":-2,\"b\":0.1,\"c\":65535,\"d\":\"hé\\\"\\u000a\"}");
@@ -56,7 +56,7 @@ TEST_CASE("minimum and maximum of every primitive type are decoded") {
         R"("h":-9223372036854775808,"i":18446744073709551615,"j":5e-324})");
 }
 
-TEST_CASE("arrays without a length, sequences with a length and nested structures are decoded") {
+TEST_CASE("arrays, sequences and nested structures are decoded") {
   const std::string schema =
       "p/In[2] fixed\nIn[<=3] some\nfloat64[] many\n===\nMSG: p/In\nint8 x\n"
       "string<=4 s\n";
@@ -68,13 +68,13 @@ TEST_CASE("arrays without a length, sequences with a length and nested structure
         R"({"fixed":[{"x":1,"s":"ab"},{"x":2,"s":"ab"}],"some":[{"x":3,"s":""}],"many":[]})");
 }
 
-TEST_CASE("a string of length 0, without closing zero, is decoded as an empty string") {
+TEST_CASE("a string of length 0 without terminating zero is decoded as an empty string") {
   test::CdrWriter cdr;
   cdr.put<std::uint32_t>(0);
   CHECK(decoded("string s\n", cdr.bytes) == R"({"s":""})");
 }
 
-TEST_CASE("a message that does not fit its type is refused with the field and the byte") {
+TEST_CASE("a message that does not match its type is rejected with the field and the byte") {
   test::CdrWriter cdr;
   std::string schema, what;
   SECTION("a truncated message") {
@@ -110,7 +110,7 @@ TEST_CASE("a message that does not fit its type is refused with the field and th
   CHECK_THROWS_WITH(decoded(schema, cdr.bytes), Catch::Contains(what));
 }
 
-TEST_CASE("random bytes are either decoded or refused with RecordingError") {
+TEST_CASE("random bytes are either decoded or rejected with RecordingError") {
   const TypeDescription type = type_of(
       "string name\nIn[] list\nuint8[] raw\nfloat64[3] xyz\n===\nMSG: p/In\nstring<=8 s\nbool[] "
       "b\n");
@@ -132,8 +132,8 @@ TEST_CASE("stamp and sequence are decoded without the fields that follow") {
       type_of("string<=32 robot\nint64 stamp_ns\nuint64 sequence\nfloat64[] rest\n");
   test::CdrWriter cdr;
   cdr.string("rig").put<std::int64_t>(-5).put<std::uint64_t>(9);
-  const Header stamp = header_of(type, cdr.bytes);
-  CHECK(stamp.stamp_ns == -5);
-  CHECK(stamp.sequence == 9u);
+  const Header header = header_of(type, cdr.bytes);
+  CHECK(header.stamp_ns == -5);
+  CHECK(header.sequence == 9u);
   CHECK_FALSE(header_of(type_of("uint8 x\n"), Bytes(8)).sequence);
 }

@@ -10,14 +10,14 @@ namespace test {
 
 /// Encodes CDR explicitly, as input of the decoder.
 struct CdrWriter {
-  explicit CdrWriter(bool little_endian = true) : little(little_endian) {
-    bytes = {std::byte{0}, std::byte{little}, std::byte{0}, std::byte{0}};
+  explicit CdrWriter(bool little_endian = true) : is_little_endian(little_endian) {
+    bytes = {std::byte{0}, std::byte{is_little_endian}, std::byte{0}, std::byte{0}};
   }
   template <class T>
   CdrWriter& put(T value) {
     while ((bytes.size() - 4) % sizeof(T)) bytes.push_back(std::byte{0});
     auto raw = std::bit_cast<std::array<std::byte, sizeof(T)>>(value);
-    if (!little) std::ranges::reverse(raw);
+    if (!is_little_endian) std::ranges::reverse(raw);
     recording::put(bytes, raw);
     return *this;
   }
@@ -28,7 +28,7 @@ struct CdrWriter {
     return *this;
   }
   recording::Bytes bytes;
-  bool little;
+  bool is_little_endian;
 };
 
 }  // namespace test

@@ -9,8 +9,8 @@
 
 #include "interfaces/recording/bytes.hpp"
 
-/// Serializes messages with Cyclone: writes and takes them in one process, in a separate domain on
-/// loopback.
+/// Serializes messages with Cyclone DDS: writes and takes them in one process, in a separate domain
+/// on loopback.
 namespace test {
 
 class Capture {
@@ -32,13 +32,13 @@ class Capture {
     const dds_entity_t reader = checked(dds_create_reader(participant_, topic, nullptr, nullptr));
     const dds_entity_t writer = checked(dds_create_writer(participant_, topic, nullptr, nullptr));
     checked(dds_write(writer, sample));
-    ddsi_serdata* taken = nullptr;
+    ddsi_serdata* serialized = nullptr;
     dds_sample_info_t info;
-    if (dds_takecdr(reader, &taken, 1, &info, DDS_ANY_STATE) != 1)
+    if (dds_takecdr(reader, &serialized, 1, &info, DDS_ANY_STATE) != 1)
       throw std::runtime_error(std::string(type.m_typename) + " did not come back");
-    recording::Bytes bytes(ddsi_serdata_size(taken));
-    ddsi_serdata_to_ser(taken, 0, bytes.size(), bytes.data());
-    ddsi_serdata_unref(taken);
+    recording::Bytes bytes(ddsi_serdata_size(serialized));
+    ddsi_serdata_to_ser(serialized, 0, bytes.size(), bytes.data());
+    ddsi_serdata_unref(serialized);
     for (const dds_entity_t entity : {reader, writer, topic}) dds_delete(entity);
     return bytes;
   }

@@ -3,12 +3,12 @@
 
 #include "interfaces/topics.hpp"
 
-/// One filled message of every topic. Every number in it is different and identifies its field by its
-/// digits.
+/// One example message of every topic. All numbers in a message differ: a number identifies its
+/// field.
 namespace test {
 
 template <class M>
-void head(M& m, std::uint64_t n) {
+void fill_header(M& m, std::uint64_t n) {
   erp::assign(m.robot, "rig");
   m.stamp_ns = 1'700'000'000'000'000'000 + static_cast<std::int64_t>(n);
   m.sequence = n;
@@ -17,7 +17,7 @@ void head(M& m, std::uint64_t n) {
 template <class M>
 M references(std::uint64_t n) {
   M m;
-  head(m, n);
+  fill_header(m, n);
   erp::assign(m.controller, "reference");
   m.answers = n + 40;
   erp::ActuatorReference r{};
@@ -36,7 +36,7 @@ inline void fill(erp::ActuatorCommand& m, std::uint64_t n) {
   m.priority = -3;
 }
 inline void fill(erp::SensorFrame& m, std::uint64_t n) {
-  head(m, n);
+  fill_header(m, n);
   const auto x = static_cast<double>(n);
   erp::ActuatorSample a{};
   erp::assign(a.name, "flexor");
@@ -52,32 +52,32 @@ inline void fill(erp::SensorFrame& m, std::uint64_t n) {
   erp::append(m.joints, j);
 }
 inline void fill(erp::EcuCommand& m, std::uint64_t n) {
-  head(m, n);
+  fill_header(m, n);
   m.answers = 11;
   erp::append(m.channels, erp::EcuChannelCommand{1, 2, 3, -400000});
 }
 inline void fill(erp::EcuFrame& m, std::uint64_t n) {
-  head(m, n);
+  fill_header(m, n);
   erp::append(m.channels,
               erp::EcuChannelSample{1, 0, true, 3, 4, 5, -600000, 700000, -1023, -2048, 4095});
   erp::append(m.channels, erp::EcuChannelSample{2, 1, false, 1, 0, 2, 9, 8, 7, 6, 5});
   erp::append(m.analogs, erp::EcuAnalogSample{1, 3, true, -8191});
 }
 inline void fill(erp::EcuParameter& m, std::uint64_t n) {
-  head(m, n);
+  fill_header(m, n);
   for (int i = 0; i < 200; ++i)
     erp::append(m.values, erp::EcuParameterValue{1, 0, static_cast<std::uint8_t>(i), i % 2 == 0,
                                                  0.125f * static_cast<float>(i)});
 }
 inline void fill(erp::GainCommand& m, std::uint64_t n) {
-  head(m, n);
+  fill_header(m, n);
   erp::assign(m.controller, "tuner"), m.answers = 4, m.priority = 9;
   erp::GainValue g{};
   erp::assign(g.name, "flexor"), erp::assign(g.parameter, "length_gain_V_per_rad"), g.value = 12.5;
   erp::append(m.gains, g);
 }
 inline void fill(erp::JointState& m, std::uint64_t n) {
-  head(m, n);
+  fill_header(m, n);
   erp::assign(m.source, "sim");
   erp::JointStateSample j{};
   erp::assign(j.name, "shoulder"), j.dof = 3;
@@ -88,7 +88,7 @@ inline void fill(erp::JointState& m, std::uint64_t n) {
   erp::append(m.joints, j);
 }
 inline void fill(erp::JointTarget& m, std::uint64_t n) {
-  head(m, n);
+  fill_header(m, n);
   erp::assign(m.controller, "joint_target"), m.answers = n + 12;
   erp::JointTargetSample j{};
   erp::assign(j.name, "shoulder"), j.dof = 3;
@@ -98,7 +98,7 @@ inline void fill(erp::JointTarget& m, std::uint64_t n) {
   erp::append(m.joints, j);
 }
 inline void fill(erp::BodyPose& m, std::uint64_t n) {
-  head(m, n);
+  fill_header(m, n);
   erp::assign(m.source, "motion_capture");
   erp::BodyPoseSample b{};
   erp::assign(b.name, "forearm");
@@ -107,14 +107,14 @@ inline void fill(erp::BodyPose& m, std::uint64_t n) {
   erp::append(m.bodies, b);
 }
 inline void fill(erp::ImagePoint& m, std::uint64_t n) {
-  head(m, n);
+  fill_header(m, n);
   erp::assign(m.source, "eye");
   erp::ImagePointSample p{};
   erp::assign(p.camera, "below"), p.u_px = 319.5, p.v_px = 0.25, p.area_px = 153;
   erp::append(m.points, p);
 }
 inline void fill(erp::ImuFrame& m, std::uint64_t n) {
-  head(m, n);
+  fill_header(m, n);
   erp::assign(m.source, "sim");
   erp::ImuSample i{};
   erp::assign(i.name, "head");
@@ -122,7 +122,7 @@ inline void fill(erp::ImuFrame& m, std::uint64_t n) {
   erp::append(m.imus, i);
 }
 inline void fill(erp::ActuatorOwner& m, std::uint64_t n) {
-  head(m, n);
+  fill_header(m, n);
   erp::ActuatorOwnerSample o{};
   erp::assign(o.name, "flexor"), erp::assign(o.owner, "force_control"), o.priority = 7;
   o.safe_action = 2, o.limited = 3, o.refused = 4'000'000'000;
@@ -130,7 +130,7 @@ inline void fill(erp::ActuatorOwner& m, std::uint64_t n) {
   erp::append(m.actuators, o);
 }
 inline void fill(erp::ComponentState& m, std::uint64_t n) {
-  head(m, n);
+  fill_header(m, n);
   erp::assign(m.component, "plant"), erp::assign(m.note, "fine");
   m.pid = 4711, m.lifecycle = 2, m.peers = 3, m.links = 8, m.steps = 1'000'000'000'000,
   m.rate_Hz = 499.5;
@@ -138,31 +138,33 @@ inline void fill(erp::ComponentState& m, std::uint64_t n) {
   for (std::uint32_t i = 0; i < 24; ++i) m.age_bins[i] = i, m.jitter_bins[i] = 100 + i;
 }
 inline void fill(erp::LifecycleCommand& m, std::uint64_t n) {
-  head(m, n);
+  fill_header(m, n);
   erp::assign(m.component, "plant"), m.target = 4;
 }
 inline void fill(erp::Clock& m, std::uint64_t n) {
-  head(m, n);
+  fill_header(m, n);
   m.real_time_factor = 7.5, m.finished = true;
 }
 inline void fill(erp::Event& m, std::uint64_t n) {
-  head(m, n);
+  fill_header(m, n);
   erp::assign(m.component, "plant"), m.severity = 2, erp::assign(m.subject, "flexor");
   erp::assign(m.code, "stale_command"), erp::assign(m.text, "no command for 22 ms");
 }
 
 /// Calls `use(message, topic, descriptor)` with an example of every topic on the bus.
-template <class Use>
-void each_example(std::uint64_t n, Use&& use) {
-  const auto one = [&]<class M>(M m) {
+template <class Callback>
+void each_example(std::uint64_t n, Callback&& callback) {
+  const auto call = [&]<class M>(M m) {
     fill(m, n);
-    use(m, std::string(erp::Topic<M>::name), *erp::Topic<M>::type);
+    callback(m, std::string(erp::Topic<M>::name), *erp::Topic<M>::type);
   };
-  one(erp::ActuatorCommand()), one(erp::ActuatorTarget()), one(erp::SensorFrame());
-  one(erp::EcuCommand()), one(erp::EcuFrame()), one(erp::EcuParameter()), one(erp::GainCommand());
-  one(erp::JointState()), one(erp::JointTarget()), one(erp::BodyPose()), one(erp::ImuFrame());
-  one(erp::ImagePoint()), one(erp::ActuatorOwner());
-  one(erp::ComponentState()), one(erp::LifecycleCommand()), one(erp::Clock()), one(erp::Event());
+  call(erp::ActuatorCommand()), call(erp::ActuatorTarget()), call(erp::SensorFrame());
+  call(erp::EcuCommand()), call(erp::EcuFrame()), call(erp::EcuParameter()),
+      call(erp::GainCommand());
+  call(erp::JointState()), call(erp::JointTarget()), call(erp::BodyPose()), call(erp::ImuFrame());
+  call(erp::ImagePoint()), call(erp::ActuatorOwner());
+  call(erp::ComponentState()), call(erp::LifecycleCommand()), call(erp::Clock()),
+      call(erp::Event());
 }
 
 }  // namespace test

@@ -15,38 +15,42 @@ using namespace launch;
 
 namespace {
 
-/// Captures what a command prints to stderr.
-class Stderr {
+/// Captures the output to stderr.
+class CapturedStderr {
  public:
-  Stderr() : old_(std::cerr.rdbuf(text_.rdbuf())) {}
-  ~Stderr() { std::cerr.rdbuf(old_); }
+  CapturedStderr() : original_buffer_(std::cerr.rdbuf(text_.rdbuf())) {}
+  ~CapturedStderr() { std::cerr.rdbuf(original_buffer_); }
   std::string text() const { return text_.str(); }
 
  private:
   std::ostringstream text_;
-  std::streambuf* old_;
+  std::streambuf* original_buffer_;
 };
 
-/// Two actuators move a joint to and fro for four seconds; frame 30 is missing.
+/// Writes a recording of 4 s: two actuators move a joint back and forth. Frame 30 is missing.
 void record_rig(const std::string& path) {
   test::RigFile file(path);
   file.writer.attach("robot.xml", "text/xml", "<robot name=\"rig\"/>");
   std::uint32_t number = 0;
   for (int i = 0; i < 2000; ++i) {
     if (i == 30) continue;
-    const double t = i * 0.002, desired = t < 1 ? 10 : 25 + 15 * std::sin(2 * M_PI * 0.5 * (t - 1));
-    const double pull = desired * (t < 1 ? 1 - std::exp(-t / 0.1) : 1) + 0.2 * std::sin(300 * t);
+    const double t = i * 0.002,
+                 desired_N = t < 1 ? 10 : 25 + 15 * std::sin(2 * M_PI * 0.5 * (t - 1));
+    const double tension_N =
+        desired_N * (t < 1 ? 1 - std::exp(-t / 0.1) : 1) + 0.2 * std::sin(300 * t);
     const auto stamp = static_cast<std::int64_t>(i) * 2'000'000;
     number = static_cast<std::uint32_t>(i);
-    const auto bytes = test::frame(
-        stamp, number,
-        {{.name = "flexor", .reference = desired, .line_m = -0.002 * pull / 10, .tension_N = pull},
-         {.name = "extensor",
-          .mode = 2,
-          .reference = 0.001,
-          .line_m = 0.001 + 1e-5 * std::sin(40 * t),
-          .tension_N = 12 - 0.1 * pull}},
-        {{.name = "elbow", .angle_rad = 0.02 * pull}});
+    const auto bytes = test::frame(stamp, number,
+                                   {{.name = "flexor",
+                                     .reference = desired_N,
+                                     .line_m = -0.002 * tension_N / 10,
+                                     .tension_N = tension_N},
+                                    {.name = "extensor",
+                                     .mode = 2,
+                                     .reference = 0.001,
+                                     .line_m = 0.001 + 1e-5 * std::sin(40 * t),
+                                     .tension_N = 12 - 0.1 * tension_N}},
+                                   {{.name = "elbow", .angle_rad = 0.02 * tension_N}});
     file.writer.write(file.frames, number, static_cast<std::uint64_t>(stamp),
                       static_cast<std::uint64_t>(stamp), bytes);
     file.write(file.joints, static_cast<std::uint64_t>(stamp),
@@ -68,7 +72,7 @@ TEST_CASE("info prints duration, topics, rates, missing messages and attachments
   CHECK_THAT(out.str(), Catch::Contains("robot.xml   text/xml    19 B"));
 }
 
-TEST_CASE("info on a truncated recording prints the place and how to recover it") {
+TEST_CASE("info on a truncated recording prints the position and the command that recovers it") {
   const test::Folder folder;
   record_rig(folder / "a.mcap");
   const std::string bytes = test::read_file(folder / "a.mcap");
@@ -82,7 +86,7 @@ TEST_CASE("info on a truncated recording prints the place and how to recover it"
   CHECK(recording::McapReader(folder / "whole.mcap").complete());
 }
 
-TEST_CASE("export writes the table or any topic; the same recording gives the same bytes") {
+TEST_CASE("export writes the table or any topic; two exports of a recording are equal") {
   const test::Folder folder;
   record_rig(folder / "a.mcap");
   std::ostringstream first, second, topic;
@@ -91,9 +95,9 @@ TEST_CASE("export writes the table or any topic; the same recording gives the sa
   CHECK(first.str() == second.str());
   CHECK(first.str().starts_with("time_s,flexor.mode,"));
   test::write_file(folder / "a.csv", first.str());
-  std::ostringstream again;
-  CHECK(log_export(folder / "a.csv", again) == 0);
-  CHECK(again.str() == first.str());
+  std::ostringstream second_export;
+  CHECK(log_export(folder / "a.csv", second_export) == 0);
+  CHECK(second_export.str() == first.str());
   CHECK(log_export(folder / "a.mcap", topic, {.topic = "joint_state"}) == 0);
   CHECK(
       topic.str().starts_with("log_time_ns,robot,source,stamp_ns,sequence,joints.shoulder.dof,"
@@ -105,7 +109,7 @@ TEST_CASE("invalid input gives exit code 2 and an error on stderr, a full disk g
   const test::Folder folder;
   record_rig(folder / "a.mcap");
   std::ostringstream out;
-  const Stderr errors;
+  const CapturedStderr errors;
   CHECK(log_info(folder / "missing.mcap", out) == 2);
   CHECK(log_export(folder / "a.mcap", out, {.topic = "nothing"}) == 2);
   CHECK_THAT(errors.text(),
@@ -139,9 +143,9 @@ TEST_CASE("plot draws an SVG and a PNG with one panel per signal") {
 
 TEST_CASE("actuator names with shell or gnuplot commands are drawn and not executed") {
   const test::Folder folder;
-  const std::string evil = "'`touch " + folder / "pwned" + "`\"\nquit\n";
-  recording::Table table{{{"time_s", {0, 1}}, {evil + ".tension_N", {1, 2}}}};
-  draw(plot_script(table, {}, evil, "t"), folder / "a.svg");
+  const std::string hostile_name = "'`touch " + folder / "pwned" + "`\"\nquit\n";
+  recording::Table table{{{"time_s", {0, 1}}, {hostile_name + ".tension_N", {1, 2}}}};
+  draw(plot_script(table, {}, hostile_name, "t"), folder / "a.svg");
   CHECK_FALSE(std::filesystem::exists(folder / "pwned"));
   CHECK_THAT(test::read_file(folder / "a.svg"), Catch::Contains("tension  [N]"));
 }
@@ -151,7 +155,7 @@ TEST_CASE("without gnuplot, plot prints the package to install and leaves no fil
   record_rig(folder / "a.mcap");
   const std::string path = std::getenv("PATH");
   setenv("PATH", (folder / "").c_str(), 1);
-  const Stderr errors;
+  const CapturedStderr errors;
   CHECK(log_plot(folder / "a.mcap", folder / "a.svg") == 2);
   setenv("PATH", path.c_str(), 1);
   CHECK_THAT(errors.text(),
@@ -160,12 +164,13 @@ TEST_CASE("without gnuplot, plot prints the package to install and leaves no fil
 }
 
 TEST_CASE(
-    "a long curve is thinned without losing its peaks, and interrupted where samples are missing") {
+    "a long curve keeps its peaks when it is decimated; it is interrupted where samples are "
+    "missing") {
   recording::Table table{{{"time_s", {}}, {"m.tension_N", {}}}};
   for (int i = 0; i < 100000; ++i) {
     table.columns[0].values.push_back(i * 0.001);
-    const bool gap = i > 50000 && i < 60000;
-    table.columns[1].values.push_back(gap ? recording::not_taken : i == 77777 ? 99.5 : 1.0);
+    const bool is_missing = i > 50000 && i < 60000;
+    table.columns[1].values.push_back(is_missing ? recording::not_taken : i == 77777 ? 99.5 : 1.0);
   }
   const std::string commands = plot_script(table, {}, "t", "t").commands;
   CHECK_THAT(commands, Catch::Contains("77.777 99.5\n"));

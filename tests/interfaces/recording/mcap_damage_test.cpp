@@ -10,7 +10,7 @@ TEST_CASE("a changed byte anywhere in a recording is detected or changes no mess
   const test::Folder folder;
   const std::string good = test::small_recording(folder / "good.mcap", {.chunk_bytes = 100}, 6);
   const auto expected = test::texts(McapReader(folder / "good.mcap"));
-  int noticed = 0;
+  int detected = 0;
   for (std::size_t i = 0; i < good.size(); ++i) {
     std::string bad = good;
     bad[i] = static_cast<char>(bad[i] ^ 0x41);
@@ -18,59 +18,61 @@ TEST_CASE("a changed byte anywhere in a recording is detected or changes no mess
     try {
       const McapReader reader(folder / "bad.mcap");
       if (reader.complete()) CHECK(test::texts(reader) == expected);
-      else ++noticed;
+      else ++detected;
     } catch (const RecordingError&) {
-      ++noticed;
+      ++detected;
     }
   }
-  // Changes in the footer's last numbers and in unused record kinds are not detected; all changes in
-  // data bytes are.
-  CHECK(noticed > static_cast<int>(good.size()) - 40);
+  // Changes of the last numbers in the footer and of unused record types are not detected; changes
+  // of data bytes are all detected.
+  constexpr int undetected_bytes = 40;
+  CHECK(detected > static_cast<int>(good.size()) - undetected_bytes);
 }
 
 TEST_CASE(
-    "a recording truncated at any byte gives the messages of its complete chunks, recover too") {
+    "reader and recover give the messages of the complete chunks of a recording truncated at any "
+    "byte") {
   const test::Folder folder;
   const auto compression = GENERATE(Compression::none, Compression::zstd);
-  const std::string whole = test::small_recording(
+  const std::string complete_file = test::small_recording(
       folder / "whole.mcap", {.compression = compression, .chunk_bytes = 100}, 10);
   const McapReader all(folder / "whole.mcap");
   const auto expected = test::texts(all);
-  for (std::size_t size = 1; size < whole.size(); ++size) {
-    test::write_file(folder / "cut.mcap", whole.substr(0, size));
-    std::size_t in_whole_chunks = 0;
+  for (std::size_t size = 1; size < complete_file.size(); ++size) {
+    test::write_file(folder / "cut.mcap", complete_file.substr(0, size));
+    std::size_t in_complete_chunks = 0;
     for (const Region& region : all.contents().regions)
-      if (region.offset + region.length <= size) in_whole_chunks += region.messages;
+      if (region.offset + region.length <= size) in_complete_chunks += region.messages;
     const McapReader reader(folder / "cut.mcap");
-    const auto found = test::texts(reader);
+    const auto messages = test::texts(reader);
     CHECK_FALSE(reader.complete());
     CHECK(reader.truncation().find("cut.mcap: byte ") != std::string::npos);
-    CHECK(found.size() == in_whole_chunks);
-    CHECK(std::equal(found.begin(), found.end(), expected.begin()));
+    CHECK(messages.size() == in_complete_chunks);
+    CHECK(std::equal(messages.begin(), messages.end(), expected.begin()));
 
     const Recovered recovered = recover(folder / "cut.mcap", folder / "repaired.mcap");
     const McapReader repaired(folder / "repaired.mcap");
-    const auto saved = test::texts(repaired);
+    const auto recovered_messages = test::texts(repaired);
     CHECK(repaired.complete());
-    CHECK(saved.size() == recovered.messages);
-    CHECK(saved.size() >= in_whole_chunks);
-    CHECK(std::equal(saved.begin(), saved.end(), expected.begin()));
+    CHECK(recovered_messages.size() == recovered.messages);
+    CHECK(recovered_messages.size() >= in_complete_chunks);
+    CHECK(std::equal(recovered_messages.begin(), recovered_messages.end(), expected.begin()));
     std::filesystem::remove(folder / "repaired.mcap");
   }
 }
 
 TEST_CASE("recover reads the messages at the start of a truncated chunk") {
   const test::Folder folder;
-  const std::string whole =
+  const std::string complete_file =
       test::small_recording(folder / "a.mcap", {.compression = Compression::none}, 10);
   const Region chunk = McapReader(folder / "a.mcap").contents().regions.at(0);
-  test::write_file(folder / "cut.mcap", whole.substr(0, chunk.offset + chunk.length - 5));
+  test::write_file(folder / "cut.mcap", complete_file.substr(0, chunk.offset + chunk.length - 5));
   CHECK(McapReader(folder / "cut.mcap").contents().messages == 0);
   CHECK(recover(folder / "cut.mcap", folder / "repaired.mcap").messages == 9);
 }
 
 TEST_CASE(
-    "recover omits a damaged chunk and keeps the rest, including attachment and sequence numbers") {
+    "recover omits a damaged chunk and keeps the other messages, the attachment and the channels") {
   const test::Folder folder;
   std::string bytes = test::small_recording(folder / "a.mcap", {.chunk_bytes = 100}, 12);
   const McapReader good(folder / "a.mcap");
@@ -88,15 +90,15 @@ TEST_CASE(
   CHECK(repaired.schemas() == good.schemas());
 }
 
-TEST_CASE("recover continues after a wrong length and reads lost definitions from the summary") {
+TEST_CASE("recover continues after a wrong length and reads damaged definitions from the summary") {
   const test::Folder folder;
   std::string bytes = test::small_recording(folder / "a.mcap", {.chunk_bytes = 100}, 12);
   const std::size_t attachment = bytes.find("robot.xml") - 4 - 16 - 9;
   REQUIRE(bytes[attachment] == 9);
-  const auto victim = GENERATE(0, 1, 2);
-  if (victim == 0) bytes[attachment + 3] = 0x7f;              // the attachment's length
-  if (victim == 1) bytes[bytes.find("first") - 10] = 0x7f;    // the channel's length
-  if (victim == 2) bytes[bytes.find("std_msgs") - 3] = 0x7f;  // the schema's name's length
+  const auto damaged_record = GENERATE(0, 1, 2);
+  if (damaged_record == 0) bytes[attachment + 3] = 0x7f;              // the attachment's length
+  if (damaged_record == 1) bytes[bytes.find("first") - 10] = 0x7f;    // the channel's length
+  if (damaged_record == 2) bytes[bytes.find("std_msgs") - 3] = 0x7f;  // the schema's name's length
   test::write_file(folder / "bad.mcap", bytes);
   const Recovered recovered = recover(folder / "bad.mcap", folder / "repaired.mcap");
   CHECK(recovered.messages == 12);
@@ -117,24 +119,24 @@ TEST_CASE("random damage crashes neither the reader nor recover") {
   const std::string good = test::small_recording(
       folder / "good.mcap", {.compression = compression, .chunk_bytes = 150}, 12);
   std::mt19937 random(20240229);
-  const auto below = [&](std::size_t n) { return random() % n; };
+  const auto random_below = [&](std::size_t n) { return random() % n; };
   for (int round = 0; round < 1500; ++round) {
     std::string bad = good;
-    for (std::size_t hit = 0; hit <= below(6); ++hit) {
-      const std::size_t at = below(bad.size());
-      switch (below(4)) {
+    for (std::size_t change = 0; change <= random_below(6); ++change) {
+      const std::size_t position = random_below(bad.size());
+      switch (random_below(4)) {
         case 0:
-          bad[at] = static_cast<char>(random());
+          bad[position] = static_cast<char>(random());
           break;
         case 1:
-          bad.erase(at, below(40));
+          bad.erase(position, random_below(40));
           break;
         case 2:
-          bad.insert(at, good.substr(below(good.size()), below(60)));
+          bad.insert(position, good.substr(random_below(good.size()), random_below(60)));
           break;
         default:
-          std::fill_n(bad.begin() + static_cast<std::ptrdiff_t>(at),
-                      std::min<std::size_t>(8, bad.size() - at), '\xff');
+          std::fill_n(bad.begin() + static_cast<std::ptrdiff_t>(position),
+                      std::min<std::size_t>(8, bad.size() - position), '\xff');
       }
       if (bad.empty()) bad = "x";
     }

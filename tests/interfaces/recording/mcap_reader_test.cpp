@@ -10,10 +10,10 @@ using namespace recording;
 
 namespace {
 
-/// A file of explicitly encoded records, such as another program may write.
-struct HandMade {
+/// A file of individually encoded records, as another program may write it.
+struct EncodedFile {
   Bytes bytes;
-  HandMade() { put(bytes, std::as_bytes(std::span(magic))); }
+  EncodedFile() { put(bytes, std::as_bytes(std::span(magic))); }
   void channel(std::uint16_t id, std::uint16_t schema = 0) {
     put_channel(bytes, {id, schema, "t" + std::to_string(id), "cdr", {}});
   }
@@ -63,39 +63,40 @@ TEST_CASE("messages are read in the order of log times even when chunks overlap"
     for (int i = 0; i < 200; ++i)
       writer.write(channel, 0, random() % 50, 0, view(std::to_string(i)));
   }
-  std::uint64_t last = 0;
+  std::uint64_t last_time_ns = 0;
   int last_number = -1, count = 0;
   McapReader(folder / "a.mcap").for_each([&](const Message& message) {
     const int number = std::stoi(std::string(text(message.data)));
-    CHECK(message.log_time_ns >= last);
-    if (message.log_time_ns == last) CHECK(number > last_number);
-    last = message.log_time_ns;
+    CHECK(message.log_time_ns >= last_time_ns);
+    if (message.log_time_ns == last_time_ns) CHECK(number > last_number);
+    last_time_ns = message.log_time_ns;
     last_number = number;
     ++count;
   });
   CHECK(count == 200);
 }
 
-TEST_CASE("messages outside of chunks and definitions inside of chunks are read") {
+TEST_CASE("messages outside chunks and definitions inside chunks are read") {
   const test::Folder folder;
-  HandMade file;
+  EncodedFile file;
   file.channel(1);
-  file.message(file.bytes, 30, "loose late");
-  file.message(file.bytes, 10, "loose early");
-  Bytes inside;
-  put_schema(inside, {5, "s", "ros2msg", "bool b"});
-  put_channel(inside, {2, 5, "inner", "cdr", {}});
-  file.message(inside, 20, "in a chunk");
-  file.chunk(inside);
+  file.message(file.bytes, 30, "outside, later");
+  file.message(file.bytes, 10, "outside, earlier");
+  Bytes chunk_records;
+  put_schema(chunk_records, {5, "s", "ros2msg", "bool b"});
+  put_channel(chunk_records, {2, 5, "inner", "cdr", {}});
+  file.message(chunk_records, 20, "in a chunk");
+  file.chunk(chunk_records);
   file.save(folder / "a.mcap");
   const McapReader reader(folder / "a.mcap");
-  CHECK(test::texts(reader) == std::vector<std::string>{"loose early", "in a chunk", "loose late"});
+  CHECK(test::texts(reader) ==
+        std::vector<std::string>{"outside, earlier", "in a chunk", "outside, later"});
   CHECK(reader.channels().at(2).topic == "inner");
 }
 
-TEST_CASE("skipped sequence numbers are counted per channel; a restart is not counted as loss") {
+TEST_CASE("skipped sequence numbers of a channel are counted; a restart is not counted as loss") {
   const test::Folder folder;
-  HandMade file;
+  EncodedFile file;
   file.channel(1);
   for (const std::uint32_t n : {5u, 6u, 9u, 10u, 0u, 1u, 3u}) file.message(file.bytes, n, "x", n);
   file.save(folder / "a.mcap");
@@ -114,7 +115,7 @@ TEST_CASE("an overflow of the 32-bit sequence number is not counted as a gap") {
   CHECK(statistics.restarts == 0);
 }
 
-TEST_CASE("a missing file, an empty file, a folder and another format are refused with the name") {
+TEST_CASE("a missing file, an empty file, a folder and another format are rejected with the name") {
   const test::Folder folder;
   test::write_file(folder / "text", "time_s,flexor.mode\n");
   test::write_file(folder / "empty", "");
@@ -125,10 +126,10 @@ TEST_CASE("a missing file, an empty file, a folder and another format are refuse
   CHECK_THROWS_WITH(McapReader(folder / "."), Catch::Contains("is not a file"));
 }
 
-TEST_CASE("damage is refused with its byte position and the remedy") {
+TEST_CASE("damage is rejected with its byte position and the remedy") {
   const test::Folder folder;
   const std::string path = folder / "a.mcap";
-  HandMade file;
+  EncodedFile file;
   Bytes records;
   std::string what;
   SECTION("a wrong checksum") {

@@ -15,30 +15,31 @@ namespace {
 
 const std::string magic_text = "\x89MCAP0\r\n";
 
-std::uint64_t u64(const std::string& bytes, std::size_t at) {
+std::uint64_t u64(const std::string& bytes, std::size_t position) {
   std::uint64_t value = 0;
   for (std::size_t i = 0; i < 8; ++i)
-    value |= std::uint64_t{static_cast<unsigned char>(bytes.at(at + i))} << (8 * i);
+    value |= std::uint64_t{static_cast<unsigned char>(bytes.at(position + i))} << (8 * i);
   return value;
 }
-std::uint32_t u32(const std::string& bytes, std::size_t at) {
-  return static_cast<std::uint32_t>(u64(bytes + std::string(4, '\0'), at));
+std::uint32_t u32(const std::string& bytes, std::size_t position) {
+  return static_cast<std::uint32_t>(u64(bytes + std::string(4, '\0'), position));
 }
 std::uint32_t crc(const std::string& bytes) {
   return static_cast<std::uint32_t>(
       crc32(0, reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uInt>(bytes.size())));
 }
 
-/// The kinds of the records from `at` to the closing magic, and their positions.
+/// The kinds of the records between the two magics, with their positions.
 std::vector<std::pair<int, std::size_t>> records(const std::string& bytes) {
-  std::vector<std::pair<int, std::size_t>> found;
-  for (std::size_t at = 8; at + 8 < bytes.size(); at += 9 + u64(bytes, at + 1))
-    found.emplace_back(bytes[at], at);
-  return found;
+  std::vector<std::pair<int, std::size_t>> kinds_at;
+  for (std::size_t position = 8; position + 8 < bytes.size();
+       position += 9 + u64(bytes, position + 1))
+    kinds_at.emplace_back(bytes[position], position);
+  return kinds_at;
 }
-std::size_t place_of(const std::string& bytes, int op) {
-  for (const auto& [kind, at] : records(bytes))
-    if (kind == op) return at;
+std::size_t position_of(const std::string& bytes, int op) {
+  for (const auto& [kind, position] : records(bytes))
+    if (kind == op) return position;
   FAIL("no record of kind " << op);
   return 0;
 }
@@ -60,7 +61,7 @@ TEST_CASE("the records are in the order that the format requires") {
   const test::Folder folder;
   const std::string bytes = test::small_recording(folder / "a.mcap", {.chunk_bytes = 60}, 3);
   std::vector<int> kinds;
-  for (const auto& [kind, at] : records(bytes)) kinds.push_back(kind);
+  for (const auto& [kind, position] : records(bytes)) kinds.push_back(kind);
   const std::vector<int> expected{1,  9,  3,  4,  4,       // header, attachment, schema, channels
                                   6,  7,  7,  6,  7,  15,  // two chunks with indexes, end of data
                                   3,  4,  4,  11, 8,  8,
@@ -73,34 +74,34 @@ TEST_CASE("data, summary, chunk and attachment have correct checksums") {
   const test::Folder folder;
   const std::string bytes =
       test::small_recording(folder / "a.mcap", {.compression = Compression::none}, 4);
-  const std::size_t data_end = place_of(bytes, 15);
+  const std::size_t data_end = position_of(bytes, 15);
   CHECK(u32(bytes, data_end + 9) == crc(bytes.substr(0, data_end)));
-  const std::size_t footer = place_of(bytes, 2), summary = u64(bytes, footer + 9);
+  const std::size_t footer = position_of(bytes, 2), summary = u64(bytes, footer + 9);
   CHECK(summary == data_end + 13);
   CHECK(u32(bytes, footer + 25) == crc(bytes.substr(summary, footer + 25 - summary)));
-  const std::size_t chunk = place_of(bytes, 6);
+  const std::size_t chunk = position_of(bytes, 6);
   CHECK(u32(bytes, chunk + 33) == crc(bytes.substr(chunk + 49, u64(bytes, chunk + 41))));
-  const std::size_t attachment = place_of(bytes, 9), length = u64(bytes, attachment + 1);
+  const std::size_t attachment = position_of(bytes, 9), length = u64(bytes, attachment + 1);
   CHECK(u32(bytes, attachment + 9 + length - 4) == crc(bytes.substr(attachment + 9, length - 4)));
 }
 
 TEST_CASE("every summary offset and index points at its record") {
   const test::Folder folder;
   const std::string bytes = test::small_recording(folder / "a.mcap", {.chunk_bytes = 60}, 5);
-  for (const auto& [kind, at] : records(bytes)) {
+  for (const auto& [kind, position] : records(bytes)) {
     if (kind == 14) {
-      CHECK(bytes[u64(bytes, at + 10)] == bytes[at + 9]);
+      CHECK(bytes[u64(bytes, position + 10)] == bytes[position + 9]);
     }
     if (kind == 8) {
-      const std::size_t chunk = u64(bytes, at + 25);
+      const std::size_t chunk = u64(bytes, position + 25);
       CHECK(bytes[chunk] == 6);
-      CHECK(u64(bytes, chunk + 1) + 9 == u64(bytes, at + 33));
-      const std::size_t index = u64(bytes, at + 47);
+      CHECK(u64(bytes, chunk + 1) + 9 == u64(bytes, position + 33));
+      const std::size_t index = u64(bytes, position + 47);
       CHECK(bytes[index] == 7);
-      CHECK(index >= chunk + u64(bytes, at + 33));
+      CHECK(index >= chunk + u64(bytes, position + 33));
     }
     if (kind == 10) {
-      CHECK(bytes[u64(bytes, at + 9)] == 9);
+      CHECK(bytes[u64(bytes, position + 9)] == 9);
     }
   }
 }
@@ -149,25 +150,25 @@ TEST_CASE("a full disk is reported with the file name and the system error") {
                     Catch::Contains("/dev/full: cannot write: No space left on device"));
 }
 
-TEST_CASE("a partial write is undone; later writes are refused and earlier data is kept") {
+TEST_CASE("a partial write is undone; later writes are rejected and earlier data is kept") {
   const test::Folder folder;
-  rlimit before{};
-  getrlimit(RLIMIT_FSIZE, &before);
-  const auto old = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit original_limit{};
+  getrlimit(RLIMIT_FSIZE, &original_limit);
+  const auto original_handler = std::signal(SIGXFSZ, SIG_IGN);
   {
     McapWriter writer(folder / "a.mcap", {.compression = Compression::none});
     const auto channel = writer.add_channel("t", "cdr", 0);
     writer.write(channel, 0, 1, 1, view("first"));
     writer.flush();
-    const rlimit limit{std::filesystem::file_size(folder / "a.mcap") + 30, before.rlim_max};
+    const rlimit limit{std::filesystem::file_size(folder / "a.mcap") + 30, original_limit.rlim_max};
     setrlimit(RLIMIT_FSIZE, &limit);
     writer.write(channel, 1, 2, 2, view(std::string(1000, 'x')));
     CHECK_THROWS_WITH(writer.flush(), Catch::Contains("File too large"));
-    setrlimit(RLIMIT_FSIZE, &before);
+    setrlimit(RLIMIT_FSIZE, &original_limit);
     CHECK_THROWS_WITH(writer.write(channel, 2, 3, 3, view("y")), Catch::Contains("earlier write"));
     CHECK_THROWS_AS(writer.close(), RecordingError);
   }
-  std::signal(SIGXFSZ, old);
+  std::signal(SIGXFSZ, original_handler);
   const McapReader reader(folder / "a.mcap");
   CHECK(reader.contents().messages == 1);
   CHECK(reader.truncation().find("without a footer") != std::string::npos);
@@ -181,14 +182,14 @@ TEST_CASE("an existing recording is overwritten only with the option replace") {
   CHECK_NOTHROW(McapWriter(folder / "a.mcap", {.replace = true}));
 }
 
-TEST_CASE("a channel or schema that was not added is refused") {
+TEST_CASE("a channel or schema that was not added is rejected") {
   const test::Folder folder;
   McapWriter writer(folder / "a.mcap");
   CHECK_THROWS_AS(writer.add_channel("t", "cdr", 1), std::invalid_argument);
   CHECK_THROWS_AS(writer.write(1, 0, 0, 0, {}), std::invalid_argument);
 }
 
-TEST_CASE("a write to a closed recording is refused") {
+TEST_CASE("a write to a closed recording is rejected") {
   const test::Folder folder;
   McapWriter writer(folder / "a.mcap");
   const auto channel = writer.add_channel("t", "cdr", 0);

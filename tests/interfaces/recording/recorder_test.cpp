@@ -30,7 +30,7 @@ TEST_CASE("the attachments are in the file before the first message") {
   CHECK(reader.attachments().at(1).name == "erp/msg/SensorFrame.idl");
 }
 
-TEST_CASE("gaps are counted separately per writer of a topic, in the recorder and from the file") {
+TEST_CASE("recorder and reader count missing messages separately for each writer of a topic") {
   const test::Folder folder;
   Recorder recorder(folder / "a.mcap", {});
   const auto topic = recorder.add_topic("actuator_command", frame_type);
@@ -55,7 +55,8 @@ TEST_CASE("gaps are counted separately per writer of a topic, in the recorder an
   CHECK(reader.schemas().size() == 1);
 }
 
-TEST_CASE("a topic added twice has the same handle; with another type it has another handle") {
+TEST_CASE(
+    "a topic added twice has the same handle; the topic with another type has another handle") {
   const test::Folder folder;
   Recorder recorder(folder / "a.mcap", {});
   CHECK(recorder.add_topic("t", frame_type) == recorder.add_topic("t", frame_type));

@@ -28,12 +28,12 @@ TEST_CASE("a type written as ros2msg text is parsed to the same type") {
         "string<=32 robot\nint64 stamp_ns  # [ns]\nerp/Sample[<=64] samples\nfloat64[4] q\n"
         "string<=8[] names\nbool ok\nint8 v\nint8 v2  # V\nint8 odd_name  # _Odd__Name_\n" +
             std::string(80, '=') + "\nMSG: erp/Sample\nfloat32 tension_n  # tension_N [N]\n");
-  const TypeDescription back = parse_ros2msg("erp/msg/Frame", text);
-  CHECK(ros2msg_text(back) == text);
+  const TypeDescription parsed = parse_ros2msg("erp/msg/Frame", text);
+  CHECK(ros2msg_text(parsed) == text);
   for (std::size_t s = 0; s < 2; ++s)
     for (std::size_t i = 0; i < type.structures[s].fields.size(); ++i) {
-      CHECK(back.structures[s].fields[i].name == type.structures[s].fields[i].name);
-      CHECK(back.structures[s].fields[i].unit == type.structures[s].fields[i].unit);
+      CHECK(parsed.structures[s].fields[i].name == type.structures[s].fields[i].name);
+      CHECK(parsed.structures[s].fields[i].unit == type.structures[s].fields[i].unit);
     }
   CHECK(parse_ros2msg("erp/msg/Frame", text).name() == "erp/msg/Frame");
 }
@@ -61,24 +61,24 @@ TEST_CASE("an ordinary comment does not rename a field") {
   CHECK(field("float64 x # [m]\n").unit == "m");
 }
 
-TEST_CASE("an invalid schema is refused with its name, line and value") {
-  const auto refused = [](const std::string& text, const std::string& what) {
+TEST_CASE("an invalid schema is rejected with its name, line and value") {
+  const auto check_rejected = [](const std::string& text, const std::string& message) {
     CHECK_THROWS_WITH(parse_ros2msg("a/msg/B", text),
-                      Catch::Contains("a/msg/B") && Catch::Contains(what));
+                      Catch::Contains("a/msg/B") && Catch::Contains(message));
   };
-  refused("bool ok\nMissing x\n", ":2: unknown type \"Missing\"");
-  refused("float64\n", ":1: \"float64\" is not");
-  refused("float64 3d\n", ":1:");
-  refused("float64[x] a\n", ":1: \"x\" is not a count");
-  refused("float64[0] a\n", "\"0\" is not a count");
-  refused("float64[99999999999] a\n", "is not a count");
-  refused("float64[2 a\n", "lacks a ]");
-  refused("int8<=3 a\n", "only a string has a bound");
-  refused("", "has no fields");
-  refused("B again\n", "contains itself");
-  refused("In x\n===\nMSG: a/In\nB[] back\n", "contains itself");
-  refused("bool x\nbool x\n", "is defined twice");
-  refused("bool x\n===\nbool y\n", ":3: expected \"MSG:");
+  check_rejected("bool ok\nMissing x\n", ":2: unknown type \"Missing\"");
+  check_rejected("float64\n", ":1: \"float64\" is not");
+  check_rejected("float64 3d\n", ":1:");
+  check_rejected("float64[x] a\n", ":1: \"x\" is not a count");
+  check_rejected("float64[0] a\n", "\"0\" is not a count");
+  check_rejected("float64[99999999999] a\n", "is not a count");
+  check_rejected("float64[2 a\n", "lacks a ]");
+  check_rejected("int8<=3 a\n", "only a string has a bound");
+  check_rejected("", "has no fields");
+  check_rejected("B again\n", "contains itself");
+  check_rejected("In x\n===\nMSG: a/In\nB[] back\n", "contains itself");
+  check_rejected("bool x\nbool x\n", "is defined twice");
+  check_rejected("bool x\n===\nbool y\n", ":3: expected \"MSG:");
 }
 
 TEST_CASE("a schema whose size doubles at each of 30 levels is parsed without expansion") {

@@ -40,7 +40,8 @@ inline void write_file(const std::string& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
-/// A recording of two channels in several chunks with an attachment; `count` messages of text.
+/// Writes a recording with two channels, an attachment and `count` text messages. Returns its
+/// bytes.
 inline std::string small_recording(const std::string& path, recording::McapOptions options,
                                    int count) {
   recording::McapWriter writer(path, options);
@@ -58,13 +59,13 @@ inline std::string small_recording(const std::string& path, recording::McapOptio
   return read_file(path);
 }
 
-/// The messages of a recording as text, in the order in which they are read.
+/// The messages of a recording as text, in the order of reading.
 inline std::vector<std::string> texts(const recording::McapReader& reader) {
-  std::vector<std::string> found;
+  std::vector<std::string> texts;
   reader.for_each([&](const recording::Message& message) {
-    found.emplace_back(recording::text(message.data));
+    texts.emplace_back(recording::text(message.data));
   });
-  return found;
+  return texts;
 }
 
 }  // namespace test

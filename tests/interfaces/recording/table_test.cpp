@@ -87,8 +87,8 @@ TEST_CASE("an actuator that is missing in the first frames has empty cells there
 }
 
 TEST_CASE(
-    "an unmeasured spherical joint is filled from joint_state, with each of its samples used "
-    "once") {
+    "a spherical joint without a sensor is read from joint_state; each of its samples is used at "
+    "most once") {
   const test::Folder folder;
   {
     test::RigFile file(folder / "a.mcap");
@@ -120,7 +120,7 @@ TEST_CASE("motion capture is preferred to the simulator unless a source is given
   CHECK(read_table(folder / "a.mcap", {.pose_source = "nobody"}).find("s.qw") == nullptr);
 }
 
-TEST_CASE("targets are in the row that they answer; commands are not targets") {
+TEST_CASE("a target is in the row that it answers; a command is not a target") {
   const test::Folder folder;
   {
     test::RigFile file(folder / "a.mcap");
@@ -142,7 +142,9 @@ TEST_CASE("targets are in the row that they answer; commands are not targets") {
   CHECK(read_table(folder / "a.mcap").find("m.target") == nullptr);
 }
 
-TEST_CASE("a recording of two robots without a robot's name, or one without frames, is refused") {
+TEST_CASE(
+    "a recording of two robots is rejected without the name of a robot; a recording without frames "
+    "is rejected") {
   const test::Folder folder;
   {
     test::RigFile file(folder / "a.mcap");
@@ -164,42 +166,43 @@ TEST_CASE("a table written as CSV is read back bit-equal and written to the same
   std::mt19937_64 random(11);
   Table table{
       {{"time_s", {}}, {"m.mode", {}}, {"m.tension_N", {}}, {"odd, \"name\".angle_rad", {}}}};
-  const double special[] = {0.0,
-                            -0.0,
-                            5e-324,
-                            1e308,
-                            0.1,
-                            1.0 / 3,
-                            123456789012345678.0,
-                            -1e-7,
-                            std::numeric_limits<double>::infinity(),
-                            not_taken};
+  const double special_values[] = {0.0,
+                                   -0.0,
+                                   5e-324,
+                                   1e308,
+                                   0.1,
+                                   1.0 / 3,
+                                   123456789012345678.0,
+                                   -1e-7,
+                                   std::numeric_limits<double>::infinity(),
+                                   not_taken};
   for (int i = 0; i < 2000; ++i) {
     double x = std::bit_cast<double>(random());
     if (std::isnan(x)) x = not_taken;
-    if (i < 10) x = special[i];
+    if (i < 10) x = special_values[i];
     table.columns[0].values.push_back(i * 0.002);
     table.columns[1].values.push_back(i % 5 == 4 ? not_taken : 1 + i % 4);
     table.columns[2].values.push_back(x);
     table.columns[3].values.push_back(-x);
   }
   const std::string text = csv_of(table);
-  const Table back = parse_csv("t.csv", text);
-  REQUIRE(back.columns.size() == table.columns.size());
+  const Table read_back = parse_csv("t.csv", text);
+  REQUIRE(read_back.columns.size() == table.columns.size());
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
-    CHECK(back.columns[c].name == table.columns[c].name);
+    CHECK(read_back.columns[c].name == table.columns[c].name);
     for (std::size_t r = 0; r < table.rows(); ++r) {
-      const double a = table.columns[c].values[r], b = back.columns[c].values[r];
+      const double a = table.columns[c].values[r], b = read_back.columns[c].values[r];
       if (std::isnan(a) ? !std::isnan(b)
                         : std::bit_cast<std::uint64_t>(a) != std::bit_cast<std::uint64_t>(b))
         FAIL("column " << c << " row " << r << ": " << a << " became " << b);
     }
   }
-  CHECK(csv_of(back) == text);
+  CHECK(csv_of(read_back) == text);
 }
 
 TEST_CASE(
-    "a CSV of another program is read: other order, quotes, blanks, line ends, missing columns") {
+    "a CSV of another program with other order, quotes, blanks, line ends and missing columns is "
+    "read") {
   const Table table = parse_csv("t.csv",
                                 "\xEF\xBB\xBF\"flexor.tension_N\" , time_s,flexor.mode\r\n "
                                 "1e1,+0.0,force\r\n\r\n,0.5,\r\nnan,1,off\r\n");
@@ -214,30 +217,32 @@ TEST_CASE(
   CHECK(table.owners("tension_N") == std::vector<std::string>{"flexor"});
 }
 
-TEST_CASE("an error in a CSV is refused with file, line, column, value and remedy") {
-  const auto refused = [](const std::string& text, const std::string& what) {
+TEST_CASE("an error in a CSV is rejected with file, line, column, value and remedy") {
+  const auto check_rejected = [](const std::string& text, const std::string& message) {
     CHECK_THROWS_WITH(parse_csv("t.csv", text),
-                      Catch::StartsWith("t.csv:") && Catch::Contains(what));
+                      Catch::StartsWith("t.csv:") && Catch::Contains(message));
   };
-  refused("", ":1:1: there is no column time_s");
-  refused("time_s;m.mode\n", "separate them by commas");
-  refused("time_ms,m.tension_N\n", ":1:1: unknown column \"time_ms\"; name it time_s, in seconds");
-  refused("time_s,m.tension\n",
-          ":1:8: unknown column \"m.tension\"; did you mean \"m.tension_N\"?");
-  refused("time_s,m.force_N\n",
-          ":1:8: unknown column \"m.force_N\"; valid names: m.mode, m.reference");
-  refused("time_s,tension_N\n", ":1:8: unknown column \"tension_N\"; name it <actuator or joint>.");
-  refused("time_s,m.mode,m.mode\n", ":1:15: column \"m.mode\" occurs twice");
-  refused("time_s,m.mode\n0,fast\n", ":2:3: unknown mode \"fast\"; use off, voltage");
-  refused("time_s,m.tension_N\n0,1\n1,1x\n", ":3:3: \"1x\" is not a number");
-  refused("time_s,m.tension_N\n0,1,5\n", ":2:5: the row has 3 cells, the header 2");
-  refused("time_s,m.tension_N\n0\n", ":2:1: the row has 1 cells");
-  refused("time_s,m.tension_N\n0,1e999\n", "beyond what a double holds");
-  refused("time_s,m.tension_N\n1,0\n0.5,0\n",
-          ":3:1: time_s steps back to 0.5; two recordings in one");
-  refused("time_s,m.tension_N\n,0\n", ":2:1: time_s is empty");
-  refused("m.tension_N,time_s\n0,1\n0,0\n", ":3:3: time_s steps back");
-  refused("time_s,\"m.mode\n0,1\n", "a quoted cell is not closed");
+  check_rejected("", ":1:1: there is no column time_s");
+  check_rejected("time_s;m.mode\n", "separate them by commas");
+  check_rejected("time_ms,m.tension_N\n",
+                 ":1:1: unknown column \"time_ms\"; name it time_s, in seconds");
+  check_rejected("time_s,m.tension\n",
+                 ":1:8: unknown column \"m.tension\"; did you mean \"m.tension_N\"?");
+  check_rejected("time_s,m.force_N\n",
+                 ":1:8: unknown column \"m.force_N\"; valid names: m.mode, m.reference");
+  check_rejected("time_s,tension_N\n",
+                 ":1:8: unknown column \"tension_N\"; name it <actuator or joint>.");
+  check_rejected("time_s,m.mode,m.mode\n", ":1:15: column \"m.mode\" occurs twice");
+  check_rejected("time_s,m.mode\n0,fast\n", ":2:3: unknown mode \"fast\"; use off, voltage");
+  check_rejected("time_s,m.tension_N\n0,1\n1,1x\n", ":3:3: \"1x\" is not a number");
+  check_rejected("time_s,m.tension_N\n0,1,5\n", ":2:5: the row has 3 cells, the header 2");
+  check_rejected("time_s,m.tension_N\n0\n", ":2:1: the row has 1 cells");
+  check_rejected("time_s,m.tension_N\n0,1e999\n", "beyond what a double holds");
+  check_rejected("time_s,m.tension_N\n1,0\n0.5,0\n",
+                 ":3:1: time_s steps back to 0.5; two recordings in one");
+  check_rejected("time_s,m.tension_N\n,0\n", ":2:1: time_s is empty");
+  check_rejected("m.tension_N,time_s\n0,1\n0,0\n", ":3:3: time_s steps back");
+  check_rejected("time_s,\"m.mode\n0,1\n", "a quoted cell is not closed");
 }
 
 TEST_CASE("CSV and MCAP are distinguished by their first bytes") {

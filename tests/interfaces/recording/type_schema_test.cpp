@@ -15,13 +15,13 @@ using namespace recording;
 
 namespace {
 
-/// The schema as in a recording: described, written, parsed.
+/// The type description after it was written to a schema and parsed again, as in a recording.
 TypeDescription through_text(const dds_topic_descriptor_t& type) {
   const TypeDescription described = node::describe(type);
   return parse_ros2msg(described.name(), ros2msg_text(described));
 }
 
-/// An example serialized by Cyclone and decoded; `text["a"]` is field a as text.
+/// A sample that Cyclone DDS serialized, decoded again. `decoded["a"]` is the field a as text.
 class Decoded {
  public:
   Decoded(const dds_topic_descriptor_t& descriptor, const void* sample)
@@ -123,14 +123,14 @@ TEST_CASE("stamp and sequence are decoded in every topic") {
   test::each_example(17, [&](const auto& m, const std::string& topic, const auto& descriptor) {
     using Wire = typename std::decay_t<decltype(m)>::Wire;
     const Bytes bytes = capture.bytes_of(descriptor, static_cast<const Wire*>(&m));
-    const recording::Header stamp = header_of(through_text(descriptor), bytes);
+    const recording::Header header = header_of(through_text(descriptor), bytes);
     INFO(topic);
-    CHECK(stamp.stamp_ns == m.stamp_ns);
-    CHECK(stamp.sequence == 17u);
+    CHECK(header.stamp_ns == m.stamp_ns);
+    CHECK(header.sequence == 17u);
   });
 }
 
-// (int8 is decoded as uint8: type objects of XTypes 1.2 have bytes only.)
+// int8 is decoded as uint8, because XTypes 1.2 has only one type for bytes.
 TEST_CASE("enums, bitmasks, typedefs, inheritance and nested arrays are decoded") {
   unusual_Everything m{};
   std::int32_t few[] = {5, -6};
@@ -157,7 +157,7 @@ TEST_CASE("enums, bitmasks, typedefs, inheritance and nested arrays are decoded"
       R"("words":["ab","cdefg"],"text":"free","pair":[0,1]})");
 }
 
-TEST_CASE("a type that a ROS 2 message cannot represent is refused with type, member and reason") {
+TEST_CASE("a type that a ROS 2 message cannot represent is rejected with type, member and reason") {
   CHECK_THROWS_WITH(node::describe(unusual_HasUnion_desc),
                     Catch::Contains("unusual::HasUnion.which is a union"));
   CHECK_THROWS_WITH(node::describe(unusual_HasOptional_desc),
@@ -172,32 +172,32 @@ TEST_CASE("a type that a ROS 2 message cannot represent is refused with type, me
 }
 
 TEST_CASE("a type discovered on the bus has the same description as the compiled type") {
-  test::Capture theirs(78), ours(79);  // two domains that discover each other like two processes
+  test::Capture remote(78), local(79);  // two domains that discover each other like two processes
   const dds_entity_t topic =
-      dds_create_topic(theirs.participant(), &unusual_Everything_desc, "unusual", nullptr, nullptr);
-  dds_create_writer(theirs.participant(), topic, nullptr, nullptr);
-  const dds_entity_t found =
-      dds_create_reader(ours.participant(), DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr);
+      dds_create_topic(remote.participant(), &unusual_Everything_desc, "unusual", nullptr, nullptr);
+  dds_create_writer(remote.participant(), topic, nullptr, nullptr);
+  const dds_entity_t publications =
+      dds_create_reader(local.participant(), DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr);
   std::string text;
   while (text.empty()) {
     void* sample = nullptr;
     dds_sample_info_t info;
-    if (dds_take(found, &sample, &info, 1, 1) != 1) {
+    if (dds_take(publications, &sample, &info, 1, 1) != 1) {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
       continue;
     }
     auto* endpoint = static_cast<dds_builtintopic_endpoint_t*>(sample);
     const dds_typeinfo_t* type_info = nullptr;
-    dds_topic_descriptor_t* met = nullptr;
+    dds_topic_descriptor_t* discovered_type = nullptr;
     if (info.valid_data && std::string(endpoint->topic_name) == "unusual" &&
         dds_builtintopic_get_endpoint_type_info(endpoint, &type_info) == DDS_RETCODE_OK &&
         type_info &&
-        dds_create_topic_descriptor(DDS_FIND_SCOPE_GLOBAL, ours.participant(), type_info,
-                                    DDS_SECS(5), &met) == DDS_RETCODE_OK) {
-      text = ros2msg_text(node::describe(*met));
-      dds_delete_topic_descriptor(met);
+        dds_create_topic_descriptor(DDS_FIND_SCOPE_GLOBAL, local.participant(), type_info,
+                                    DDS_SECS(5), &discovered_type) == DDS_RETCODE_OK) {
+      text = ros2msg_text(node::describe(*discovered_type));
+      dds_delete_topic_descriptor(discovered_type);
     }
-    dds_return_loan(found, &sample, 1);
+    dds_return_loan(publications, &sample, 1);
   }
   CHECK(text == ros2msg_text(node::describe(unusual_Everything_desc)));
 }

@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A folder of files, removed at the end.
+/// A temporary folder; the destructor removes it.
 class Files {
  public:
   Files() : folder_(fs::temp_directory_path() / ("erp_assemble_" + std::to_string(getpid()))) {
@@ -29,7 +29,7 @@ class Files {
   fs::path folder_;
 };
 
-const char* const types = R"(<robot name="types">
+const char* const types_xml = R"(<robot name="types">
   <motor_type name="m" resistance_ohm="1" inductance_H="1" back_emf_V_s_per_rad="1"
               torque_Nm_per_A="1" gear_ratio="1" gear_efficiency="1" rotor_inertia_kg_m2="1"
               supply_V="12" current_limit_A="1"/>
@@ -37,7 +37,7 @@ const char* const types = R"(<robot name="types">
                tension_bits="12" tension_range_N="200"/>
 </robot>)";
 
-const char* const arm = R"(<robot name="arm_part">
+const char* const arm_xml = R"(<robot name="arm_part">
   <include file="types.xml"/>
   <skeleton>
     <body name="left_arm" mass_kg="1" com_m="0.1 0.02 -0.3" inertia_kg_m2="1 1 1"/>
@@ -56,21 +56,21 @@ const char* const arm = R"(<robot name="arm_part">
   <joint_sensor joint="left_shoulder" ecu="2" input="1" bits_per_rev="14"/>
 </robot>)";
 
-const char* const both = R"(<robot name="both">
+const char* const two_arms_xml = R"(<robot name="both">
   <include file="parts/arm.xml"/>
   <mirror file="parts/arm.xml" from="left_" to="right_" ecu_offset="14"/>
   <skeleton gravity_m_per_s2="0 0 -9.81"><body name="torso"/></skeleton>
 </robot>)";
 
 erp::Robot two_arms(const Files& files) {
-  files.put("parts/types.xml", types);
-  files.put("parts/arm.xml", arm);
-  files.put("both.xml", both);
+  files.put("parts/types.xml", types_xml);
+  files.put("parts/arm.xml", arm_xml);
+  files.put("both.xml", two_arms_xml);
   return erp::read_robot(files.path("both.xml"));
 }
 
 template <class Items>
-const auto& named(const Items& items, const std::string& name) {
+const auto& find_by_name(const Items& items, const std::string& name) {
   for (const auto& item : items)
     if (item.name == name) return item;
   throw std::out_of_range(name);
@@ -78,7 +78,7 @@ const auto& named(const Items& items, const std::string& name) {
 
 using Matrix = std::array<erp::Vec3, 3>;
 
-/// Rodrigues: R = 1 cos q + [n]× sin q + n nᵀ (1 − cos q)
+/// Rodrigues' formula: R = E cos q + [n]× sin q + n nᵀ (1 − cos q), E the unit matrix.
 Matrix rotation(erp::Vec3 n, double q) {
   const double length = std::hypot(n[0], n[1], n[2]);
   for (double& x : n) x /= length;
@@ -91,7 +91,7 @@ Matrix rotation(erp::Vec3 n, double q) {
   return r;
 }
 
-/// Position of a point of the joint's child in the parent's frame.
+/// Position of a point `p` of the child in the frame of the parent, at the joint angle q in rad.
 erp::Vec3 in_parent(const erp::Joint& joint, double q, const erp::Vec3& p) {
   const Matrix r = rotation(joint.axis, q);
   erp::Vec3 out = joint.at_m;
@@ -111,13 +111,13 @@ TEST_CASE("nested includes are read, with paths relative to the including file")
   CHECK(robot.bodies().size() == 3);
   CHECK(robot.actuators.size() == 2);
   CHECK(robot.motor_types.size() == 1);
-  CHECK(named(robot.actuators, "left_deltoid").place.file == files.path("parts/arm.xml"));
+  CHECK(find_by_name(robot.actuators, "left_deltoid").place.file == files.path("parts/arm.xml"));
 }
 
 TEST_CASE("a mirrored part has its names, references and ecus replaced") {
   const Files files;
   const erp::Robot robot = two_arms(files);
-  const auto& deltoid = named(robot.actuators, "right_deltoid");
+  const auto& deltoid = find_by_name(robot.actuators, "right_deltoid");
   CHECK(deltoid.ecu == 16);
   CHECK(deltoid.channel == 1);
   CHECK(deltoid.motor == "m");
@@ -126,7 +126,7 @@ TEST_CASE("a mirrored part has its names, references and ecus replaced") {
   CHECK(robot.joint_sensors[1].joint == "right_shoulder");
   CHECK(robot.joint_sensors[1].ecu == 16);
   const auto joints = robot.joints();
-  const auto& shoulder = named(joints, "right_shoulder");
+  const auto& shoulder = find_by_name(joints, "right_shoulder");
   CHECK(shoulder.parent == "torso");
   CHECK(shoulder.child == "right_arm");
   CHECK(shoulder.min_rad == -0.5);
@@ -136,8 +136,8 @@ TEST_CASE("points of a mirrored part have the opposite sign of y") {
   const Files files;
   const erp::Robot robot = two_arms(files);
   const auto bodies = robot.bodies();
-  CHECK(named(bodies, "right_arm").com_m == erp::Vec3{0.1, -0.02, -0.3});
-  const auto& path = named(robot.actuators, "right_deltoid").tendon.path;
+  CHECK(find_by_name(bodies, "right_arm").com_m == erp::Vec3{0.1, -0.02, -0.3});
+  const auto& path = find_by_name(robot.actuators, "right_deltoid").tendon.path;
   CHECK(std::get<erp::Attach>(path[0]).at_m == erp::Vec3{0, -0.1, 0.5});
   CHECK(std::get<erp::Pulley>(path[1]).center_m == erp::Vec3{0.01, -0.02, 0.03});
   CHECK(std::get<erp::Pulley>(path[1]).side == erp::Vec3{0, -1, 0});
@@ -150,8 +150,8 @@ TEST_CASE("at the same joint angle a mirrored body is the mirror image") {
   const auto joints = robot.joints();
   const erp::Vec3 p{0.3, -0.7, 0.2}, mirror_p{0.3, 0.7, 0.2};
   for (double q : {-0.4, 0.0, 0.9, 1.5}) {
-    const auto left = in_parent(named(joints, "left_shoulder"), q, p);
-    const auto right = in_parent(named(joints, "right_shoulder"), q, mirror_p);
+    const auto left = in_parent(find_by_name(joints, "left_shoulder"), q, p);
+    const auto right = in_parent(find_by_name(joints, "right_shoulder"), q, mirror_p);
     CHECK(right[0] == Approx(left[0]).margin(1e-15));
     CHECK(right[1] == Approx(-left[1]).margin(1e-15));
     CHECK(right[2] == Approx(left[2]).margin(1e-15));
@@ -162,10 +162,10 @@ TEST_CASE("mirroring twice gives the same robot, bit-equal") {
   const Files files;
   two_arms(files);
   const erp::Robot part = erp::assemble_robot(files.path("parts/arm.xml"));
-  const erp::Robot there = erp::mirrored(part, {{}, "", "left_", "right_", 14});
-  const erp::Robot back = erp::mirrored(there, {{}, "", "right_", "left_", -14});
-  CHECK(erp::write_robot(there) != erp::write_robot(part));
-  CHECK(erp::write_robot(back) == erp::write_robot(part));
+  const erp::Robot mirrored_part = erp::mirrored(part, {{}, "", "left_", "right_", 14});
+  const erp::Robot mirrored_twice = erp::mirrored(mirrored_part, {{}, "", "right_", "left_", -14});
+  CHECK(erp::write_robot(mirrored_part) != erp::write_robot(part));
+  CHECK(erp::write_robot(mirrored_twice) == erp::write_robot(part));
 }
 
 TEST_CASE("an assembled robot written to one file is read back equal") {
@@ -175,7 +175,7 @@ TEST_CASE("an assembled robot written to one file is read back equal") {
   CHECK(erp::write_robot(erp::read_robot(files.path("flat.xml"))) == erp::write_robot(robot));
 }
 
-TEST_CASE("a circular include is refused with its place") {
+TEST_CASE("a circular include is rejected with its place") {
   const Files files;
   files.put("a.xml", "<robot name='a'><include file='b.xml'/></robot>");
   files.put("b.xml", "<robot name='b'>\n<mirror file='a.xml' from='l' to='r'/></robot>");

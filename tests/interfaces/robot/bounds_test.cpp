@@ -1,4 +1,4 @@
-// The bounds that check_robot uses equal the bounds of the messages.
+// Compares the bounds in check.hpp with the bounds of the messages.
 #include <catch2/catch.hpp>
 
 #include "interfaces/robot/check.hpp"

@@ -17,7 +17,7 @@ std::string errors_of(const erp::Robot& robot) {
 
 TEST_CASE("a valid robot gives no errors") { CHECK(errors_of(rig()).empty()); }
 
-TEST_CASE("64 actuators are accepted and 65 are refused") {
+TEST_CASE("64 actuators are accepted and 65 are rejected") {
   erp::Robot robot = rig();
   const erp::Actuator flexor = robot.actuators[0];
   robot.actuators.clear();
@@ -33,7 +33,7 @@ TEST_CASE("64 actuators are accepted and 65 are refused") {
   CHECK_THAT(errors_of(robot), Catch::Contains("65 actuators; the bus allows at most 64"));
 }
 
-TEST_CASE("a loop of joints is reported once, without the chain attached to it") {
+TEST_CASE("a loop of joints is reported once, without the joints that are attached to it") {
   erp::Robot robot = rig();
   auto& skeleton = robot.skeletons[0];
   for (const char* name : {"a", "b", "c", "d"}) {
@@ -65,7 +65,7 @@ TEST_CASE("spherical and fixed joints need no axis and no limits") {
   CHECK(errors_of(robot).empty());
 }
 
-TEST_CASE("two sensors on one input or on one joint are refused") {
+TEST_CASE("two sensors on one input or on one joint are rejected") {
   erp::Robot robot = rig();
   robot.joint_sensors.push_back(robot.joint_sensors[0]);
   CHECK_THAT(errors_of(robot), Catch::Contains("input=\"0\" already reads joint \"elbow\"") &&
@@ -73,7 +73,7 @@ TEST_CASE("two sensors on one input or on one joint are refused") {
 }
 
 TEST_CASE(
-    "a point inside its neighbouring pulley is refused, on its surface or in another accepted") {
+    "a point inside its neighbouring pulley is rejected; a point on its surface is accepted") {
   erp::Robot robot = rig();
   auto& path = robot.actuators[0].tendon.path;
   std::get<erp::Attach>(path[1]).at_m = {-0.025, 0, 0};
@@ -83,7 +83,7 @@ TEST_CASE(
   CHECK_THAT(errors_of(robot), Catch::Contains("inside its radius_m=\"0.025\""));
 }
 
-TEST_CASE("relax_tension_N and pretension_N above max_tension_N are refused") {
+TEST_CASE("relax_tension_N and pretension_N above max_tension_N are rejected") {
   erp::Robot robot = rig();
   robot.actuators[0].relax_tension_N = 151;
   robot.actuators[1].tendon.pretension_N = 151;

@@ -1,4 +1,4 @@
-// The values of the hinge rig that other tests and publications refer to.
+// Values of the hinge rig to which other tests and publications refer.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -9,7 +9,7 @@ namespace {
 
 erp::Robot rig() { return erp::read_robot(ERP_SOURCE_DIR "/configs/hinge_rig/robot.xml"); }
 
-/// The pulley and its two neighbouring points; the last one moves with the elbow.
+/// The pulley and its two neighbouring points; `end` moves with the elbow.
 struct AroundPulley {
   erp::Attach guide;
   erp::Pulley pulley;
@@ -21,23 +21,27 @@ AroundPulley around_pulley(const erp::Actuator& actuator) {
           std::get<erp::Attach>(path.at(3))};
 }
 
-/// Angle of a point in the xz plane, in the sense of the elbow's axis +y: z towards x.
+/// Angle of a point in the xz plane about the elbow's axis +y, from z towards x.
 double angle_rad(const erp::Vec3& p) { return std::atan2(p[0], p[2]); }
 double radius_m(const erp::Vec3& p) { return std::hypot(p[0], p[2]); }
 
-/// Angle from guide to end along the tendon: past −x for the flexor, past +x otherwise.
+/// Angle from guide to end along the tendon: via −x for the flexor, via +x for the extensor.
 double path_angle_rad(const AroundPulley& a, double elbow_rad) {
-  const double turn = angle_rad(a.end.at_m) + elbow_rad - angle_rad(a.guide.at_m);
-  const double along_path = a.guide.at_m[0] < 0 ? -turn : turn;
+  const double angle_from_guide_rad = angle_rad(a.end.at_m) + elbow_rad - angle_rad(a.guide.at_m);
+  const double along_path = a.guide.at_m[0] < 0 ? -angle_from_guide_rad : angle_from_guide_rad;
   return std::fmod(along_path + 4 * std::numbers::pi, 2 * std::numbers::pi);
 }
 
-// L = √(a²−r²) + √(b²−r²) + r (θ − α − β), α = acos(r/a), β = acos(r/b)
+// L = √(a²−r²) + √(b²−r²) + r (θ − α − β), α = acos(r/a), β = acos(r/b); a, b: distances of guide
+// and end
 double length_m(const AroundPulley& a, double elbow_rad) {
-  const double r = a.pulley.radius_m, to = radius_m(a.guide.at_m), from = radius_m(a.end.at_m);
-  const double wrapped = path_angle_rad(a, elbow_rad) - std::acos(r / to) - std::acos(r / from);
-  REQUIRE(wrapped > 0.05);
-  return std::sqrt(to * to - r * r) + std::sqrt(from * from - r * r) + r * wrapped;
+  const double r = a.pulley.radius_m, guide_distance_m = radius_m(a.guide.at_m),
+               end_distance_m = radius_m(a.end.at_m);
+  const double wrap_angle_rad = path_angle_rad(a, elbow_rad) - std::acos(r / guide_distance_m) -
+                                std::acos(r / end_distance_m);
+  REQUIRE(wrap_angle_rad > 0.05);
+  return std::sqrt(guide_distance_m * guide_distance_m - r * r) +
+         std::sqrt(end_distance_m * end_distance_m - r * r) + r * wrap_angle_rad;
 }
 
 }  // namespace
@@ -82,7 +86,7 @@ TEST_CASE("the motor's derived constants equal the published ones") {
   // J_tot = (J_M + J_G) N² η: the rotor's inertia referred to the output
   const double inertia = (m.rotor_inertia_kg_m2 + m.gear_inertia_kg_m2) * std::pow(m.gear_ratio, 2);
   CHECK(inertia * m.gear_efficiency == Approx(0.01402).epsilon(0.03));
-  // 40 N · r = K_T i N η
+  // current that holds 40 N: i = 40 N · r / (K_T N η) = 0.207 A
   CHECK(40 * 0.0045 / (m.torque_Nm_per_A * m.gear_ratio * m.gear_efficiency) ==
         Approx(0.207).epsilon(0.005));
   CHECK(m.supply_V / (m.back_emf_V_s_per_rad * m.gear_ratio) == Approx(8.15).epsilon(0.001));

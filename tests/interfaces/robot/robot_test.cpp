@@ -25,14 +25,14 @@ TEST_CASE("a robot written to one file is read back bit-equal") {
   robot.motor_types[0].resistance_ohm = 0.1 + 0.2;
   robot.skeletons[0].joints[0].at_m = {1.0 / 3, -2e-17, 4e9};
   const std::string text = erp::write_robot(robot);
-  const erp::Robot back = from_text(text);
-  CHECK(erp::write_robot(back) == text);
-  CHECK(back.motor_types[0].resistance_ohm == 0.1 + 0.2);
-  CHECK(back.joints()[0].at_m == robot.joints()[0].at_m);
-  CHECK(back.actuators[1].tendon.path.size() == robot.actuators[1].tendon.path.size());
+  const erp::Robot read_back = from_text(text);
+  CHECK(erp::write_robot(read_back) == text);
+  CHECK(read_back.motor_types[0].resistance_ohm == 0.1 + 0.2);
+  CHECK(read_back.joints()[0].at_m == robot.joints()[0].at_m);
+  CHECK(read_back.actuators[1].tendon.path.size() == robot.actuators[1].tendon.path.size());
 }
 
-TEST_CASE("bodies, joints and gravity of all skeletons are joined") {
+TEST_CASE("a robot combines bodies, joints and gravity of all its skeletons") {
   const auto robot = from_text(R"(<robot name="r">
     <skeleton><body name="a"/><body name="b" mass_kg="1"/>
       <joint name="j" type="fixed" parent="a" child="b"/></skeleton>

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const fs::path source = ERP_SOURCE_DIR;
+const fs::path source_folder = ERP_SOURCE_DIR;
 
 std::string contents(const fs::path& file) {
   std::ostringstream text;
@@ -32,23 +32,23 @@ void add_if(std::vector<std::string>& files, const fs::path& file, const std::st
     files.push_back(file.string());
 }
 
-/// Every XML file in configs/ and directly in launch/ with that root element.
+/// Every XML file in configs/ and in launch/ (without subfolders) with the root element `kind`.
 std::vector<std::string> files_of(const std::string& kind) {
   std::vector<std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(source / "configs"))
+  for (const auto& entry : fs::recursive_directory_iterator(source_folder / "configs"))
     add_if(files, entry.path(), kind);
-  for (const auto& entry : fs::directory_iterator(source / "launch"))
+  for (const auto& entry : fs::directory_iterator(source_folder / "launch"))
     add_if(files, entry.path(), kind);
   return files;
 }
 
-/// Checks the structure only, since a part of a robot may refer to bodies of another part.
+/// Checks only the structure, because a part of a robot may refer to bodies of another part.
 template <class T>
 void check_agreement(const std::string& kind) {
   const auto files = files_of(kind);
   REQUIRE_FALSE(files.empty());
   const auto valid =
-      valid_by_schema((source / "interfaces/schema" / (kind + ".xsd")).string(), files);
+      valid_by_schema((source_folder / "interfaces/schema" / (kind + ".xsd")).string(), files);
   for (const std::string& file : files) {
     INFO(file);
     CHECK_NOTHROW(xml::read<T>(file));
@@ -59,9 +59,9 @@ void check_agreement(const std::string& kind) {
 }  // namespace
 
 TEST_CASE("the committed XSDs equal those generated from the structs") {
-  // To renew one: erp check --schema robot > interfaces/schema/robot.xsd
-  CHECK(contents(source / "interfaces/schema/robot.xsd") == generated("robot"));
-  CHECK(contents(source / "interfaces/schema/graph.xsd") == generated("graph"));
+  // To regenerate an XSD: erp check --schema robot > interfaces/schema/robot.xsd
+  CHECK(contents(source_folder / "interfaces/schema/robot.xsd") == generated("robot"));
+  CHECK(contents(source_folder / "interfaces/schema/graph.xsd") == generated("graph"));
 }
 
 TEST_CASE("reader and XSD both accept every robot in configs and launch") {

@@ -18,10 +18,11 @@ namespace {
 
 const fs::path folder = fs::path(ERP_SOURCE_DIR) / "tests/interfaces/broken";
 
-/// From the first line of a file: `<!-- expect [semantic] LINE:COLUMN WORDS -->`.
+/// The expected error, from the first line of a file: `<!-- expect [semantic] LINE:COLUMN MESSAGE
+/// -->`.
 struct Expected {
   bool semantic = false;
-  std::string place, words;
+  std::string place, message;
 };
 
 Expected expected_of(const fs::path& file) {
@@ -33,7 +34,7 @@ Expected expected_of(const fs::path& file) {
   Expected expected;
   rest >> expected.place;
   if ((expected.semantic = expected.place == "semantic")) rest >> expected.place;
-  std::getline(rest >> std::ws, expected.words);
+  std::getline(rest >> std::ws, expected.message);
   return expected;
 }
 
@@ -44,7 +45,7 @@ std::vector<std::string> files_in(const std::string& kind) {
   return files;
 }
 
-std::string at(const xml::Place& place) {
+std::string place_text(const xml::Place& place) {
   return std::to_string(place.line) + ":" + std::to_string(place.column);
 }
 
@@ -56,7 +57,7 @@ void read_tracker(const std::string& file) {
 }
 
 /// Checks that the file has exactly one error, with the expected place and message.
-void check_refused(const Read& read, const std::string& file, const Expected& expected) {
+void check_rejected(const Read& read, const std::string& file, const Expected& expected) {
   INFO(file);
   try {
     read(file);
@@ -64,8 +65,8 @@ void check_refused(const Read& read, const std::string& file, const Expected& ex
   } catch (const xml::Errors& errors) {
     INFO(errors.what());
     CHECK(errors.all().size() == 1);
-    CHECK(at(errors.all().front().place) == expected.place);
-    CHECK_THAT(to_string(errors.all().front()), Catch::Contains(expected.words));
+    CHECK(place_text(errors.all().front().place) == expected.place);
+    CHECK_THAT(to_string(errors.all().front()), Catch::Contains(expected.message));
     CHECK_FALSE(errors.all().front().remedy.empty());
   }
 }
@@ -75,7 +76,7 @@ void check_kind(const std::string& kind, const std::string& schema, const Read& 
   const auto valid = valid_by_schema(schema, files);
   for (const std::string& file : files) {
     const Expected expected = expected_of(file);
-    check_refused(read, file, expected);
+    check_rejected(read, file, expected);
     INFO(file);
     CHECK(valid.contains(file) == expected.semantic);
   }
@@ -88,38 +89,38 @@ std::string schema_file(const std::string& kind) {
 }  // namespace
 
 TEST_CASE(
-    "every broken robot is refused with the place of its error; the XSD refuses structural "
+    "every broken robot is rejected with the place of its error; the XSD rejects structural "
     "errors") {
   check_kind("robot", schema_file("robot"), [](const auto& file) { erp::read_robot(file); });
 }
 
 TEST_CASE(
-    "every broken graph is refused with the place of its error; the XSD refuses structural "
+    "every broken graph is rejected with the place of its error; the XSD rejects structural "
     "errors") {
   check_kind("graph", schema_file("graph"), [](const auto& file) { erp::read_graph(file); });
 }
 
-TEST_CASE("every broken component config is refused with the place of its error, and by its XSD") {
+TEST_CASE("every broken component config is rejected with the place of its error, and by its XSD") {
   const std::string schema = temporary("tracker.xsd", xml::schema<example::Params>("tracker"));
   check_kind("component", schema, read_tracker);
   fs::remove(schema);
 }
 
-TEST_CASE("the files from which the broken ones were made are valid") {
+TEST_CASE("the files from which the broken files were made are valid") {
   CHECK_NOTHROW(erp::read_robot((folder / "good/robot.xml").string()));
   CHECK_NOTHROW(erp::read_graph((folder / "good/graph.xml").string()));
   CHECK_NOTHROW(read_tracker((folder / "good/tracker.xml").string()));
 }
 
 TEST_CASE("erp check prints every error and exits with 2, or prints ok and exits with 0") {
-  const launch::CheckComponent only_trackers =
+  const launch::CheckComponent check_trackers =
       [](const std::string& type, const std::string& file) -> std::optional<std::string> {
     if (type != "tracker") return std::nullopt;
     return example::refusal([&] { read_tracker(file); });
   };
   const auto check = [&](const fs::path& file, std::string& printed) {
     std::ostringstream out;
-    const int code = launch::check({file.string()}, out, only_trackers);
+    const int code = launch::check({file.string()}, out, check_trackers);
     printed = out.str();
     return code;
   };
@@ -141,12 +142,12 @@ TEST_CASE("the program of a component checks its config") {
   const auto output_of = [](const std::string& script) {
     const std::string program = temporary("component.sh", "#!/bin/sh\n" + script + "\n");
     fs::permissions(program, fs::perms::owner_all);
-    const auto ask = launch::check_by_program(
+    const auto check = launch::check_by_program(
         [&](const std::string& type) { return type == "tracker" ? program : ""; });
-    const auto answer = ask("tracker", "f.xml");
-    CHECK_FALSE(ask("other", "f.xml").has_value());
+    const auto errors = check("tracker", "f.xml");
+    CHECK_FALSE(check("other", "f.xml").has_value());
     fs::remove(program);
-    return answer.value();
+    return errors.value();
   };
   CHECK(output_of("exit 0").empty());
   CHECK(output_of("echo \"$2:1:1: $3\" >&2; exit 2") == "f.xml:1:1: --check\n");

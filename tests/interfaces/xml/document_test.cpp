@@ -10,7 +10,7 @@ using example::refusal;
 
 namespace {
 
-std::string at(const xml::Place& place) {
+std::string place_text(const xml::Place& place) {
   return std::to_string(place.line) + ":" + std::to_string(place.column);
 }
 
@@ -24,37 +24,37 @@ std::string malformed(const std::string& text) {
 
 TEST_CASE("every element and attribute has its line and column") {
   const auto root = parsed("<a>\n  <b x=\"1\"\n     y=\"2\"/><c/>\n</a>");
-  CHECK(at(root.place) == "1:1");
+  CHECK(place_text(root.place) == "1:1");
   const auto& b = root.children.at(0);
-  CHECK(at(b.place) == "2:3");
-  CHECK(at(b.attributes.at(0).place) == "2:6");
-  CHECK(at(b.attributes.at(1).place) == "3:6");
-  CHECK(at(root.children.at(1).place) == "3:13");
+  CHECK(place_text(b.place) == "2:3");
+  CHECK(place_text(b.attributes.at(0).place) == "2:6");
+  CHECK(place_text(b.attributes.at(1).place) == "3:6");
+  CHECK(place_text(root.children.at(1).place) == "3:13");
 }
 
-TEST_CASE("places are correct with CRLF, in text and in values that the parser rewrites") {
+TEST_CASE("places are correct with CRLF, in text and in values that the parser shortens") {
   const auto root =
       parsed("<a>\r\n words\r\n more <b x=\"&lt;&amp;\r\n&gt;\" y=\"2\"/>\r\n <c/></a>");
   const auto& b = root.children.at(0);
-  CHECK(at(root.stray_text.at(0).first) == "2:2");
-  CHECK(at(b.place) == "3:7");
+  CHECK(place_text(root.stray_text.at(0).first) == "2:2");
+  CHECK(place_text(b.place) == "3:7");
   CHECK(b.attributes.at(0).value == "<&\n>");
-  CHECK(at(b.attributes.at(1).place) == "4:7");
-  CHECK(at(root.children.at(1).place) == "5:2");
+  CHECK(place_text(b.attributes.at(1).place) == "4:7");
+  CHECK(place_text(root.children.at(1).place) == "5:2");
 }
 
-TEST_CASE("places count characters, not bytes, and skip a byte order mark") {
-  CHECK(at(parsed("\xEF\xBB\xBF<a><b/></a>").children.at(0).place) == "1:4");
-  CHECK(at(parsed("<a n=\"größe\"><b/></a>").children.at(0).place) == "1:14");
+TEST_CASE("columns count characters, not bytes, and do not include a byte order mark") {
+  CHECK(place_text(parsed("\xEF\xBB\xBF<a><b/></a>").children.at(0).place) == "1:4");
+  CHECK(place_text(parsed("<a n=\"größe\"><b/></a>").children.at(0).place) == "1:14");
 }
 
 TEST_CASE("places are correct after a declaration and comments before the root") {
   const auto root = parsed("<?xml version=\"1.0\"?>\n<!-- a\nb -->\n <a><!-- c --><b/></a>");
-  CHECK(at(root.place) == "4:2");
-  CHECK(at(root.children.at(0).place) == "4:15");
+  CHECK(place_text(root.place) == "4:2");
+  CHECK(place_text(root.children.at(0).place) == "4:15");
 }
 
-TEST_CASE("text that is not well-formed XML is refused with the place of the violation") {
+TEST_CASE("text that is not well-formed XML is rejected with the place of the violation") {
   CHECK(malformed("<a>\n <b></a>") == "f.xml:2:5: </a> where <b> is open; write </b> first");
   CHECK_THAT(malformed("<a>\n<b>"), Catch::StartsWith("f.xml:2:1: <b> is never closed"));
   CHECK_THAT(malformed("<a x='1' x='2'/>"), Catch::StartsWith("f.xml:1:10: <a>: x is given twice"));
@@ -74,27 +74,27 @@ TEST_CASE("text that is not well-formed XML is refused with the place of the vio
   CHECK_THAT(malformed("no XML"), Catch::StartsWith("f.xml:1:1: text outside the root element"));
 }
 
-TEST_CASE("text that is not UTF-8 and control characters are refused") {
+TEST_CASE("text that is not UTF-8 and control characters are rejected") {
   CHECK_THAT(malformed("<a>\n\xFF</a>"), Catch::StartsWith("f.xml:2:1: is not UTF-8 text"));
   CHECK_THAT(malformed("<a>\xC3</a>"), Catch::Contains("is not UTF-8 text"));
   CHECK_THAT(malformed(std::string("<a/>\0<b/>", 9)),
              Catch::StartsWith("f.xml:1:5: has a control character, code 0"));
 }
 
-TEST_CASE("an empty text and a text without an element are refused") {
+TEST_CASE("an empty text and a text without an element are rejected") {
   CHECK(malformed("") == "f.xml:1:1: is empty; write the root element");
   CHECK_THAT(malformed(" \n"), Catch::Contains("is empty"));
   CHECK(malformed("<!-- nothing -->") == "f.xml:1:1: contains no element; write the root element");
 }
 
-TEST_CASE("nesting of 100000 elements is refused without exhausting the stack") {
+TEST_CASE("nesting of 100000 elements is rejected without exhausting the stack") {
   std::string text;
   for (int i = 0; i < 100000; ++i) text += "<a>";
   for (int i = 0; i < 100000; ++i) text += "</a>";
   CHECK_THAT(malformed(text), Catch::Contains("DEPTH"));
 }
 
-TEST_CASE("a missing file, a folder and an empty file are refused with different messages") {
+TEST_CASE("a missing file, a folder and an empty file are rejected with different messages") {
   const auto folder = std::filesystem::temp_directory_path();
   const auto empty = folder / "erp_empty_document_test.xml";
   std::ofstream(empty).close();

@@ -44,7 +44,7 @@ TEST_CASE("numbers are decimal and finite, with white space and a sign allowed")
                Contains("is not a finite number"));
 }
 
-TEST_CASE("integers with a fraction or out of range are refused") {
+TEST_CASE("integers with a fraction or out of range are rejected") {
   const auto step = [](const std::string& text) {
     return refusal_of_params("<tracker gain_per_s='1'><track name='a' step='" + text +
                              "'/></tracker>");
@@ -56,7 +56,8 @@ TEST_CASE("integers with a fraction or out of range are refused") {
   CHECK_THAT(step("99999999999999999999"), Contains("is out of range"));
 }
 
-TEST_CASE("an unknown name is refused with the nearest known one, which is not reported missing") {
+TEST_CASE(
+    "an unknown name is rejected with the nearest known name, which is not reported missing") {
   CHECK(refusal_of_params("<tracker gain='1'/>") ==
         "f.xml:1:10: <tracker>: unknown attribute \"gain\"; did you mean \"gain_per_s\"?");
   CHECK(refusal_of<Cart>("<cart><wheal/></cart>") ==
@@ -97,7 +98,7 @@ TEST_CASE("attributes with which an editor finds the XSD are allowed") {
             .empty());
 }
 
-TEST_CASE("a file with another root element is refused") {
+TEST_CASE("a file with another root element is rejected") {
   CHECK(refusal_of<Row>("<raw/>") ==
         "f.xml:1:1: <raw>: the root element must be <row>; did you mean \"row\"?");
 }

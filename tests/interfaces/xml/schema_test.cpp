@@ -14,13 +14,13 @@ template <class T>
 bool both_accept(const std::string& text) {
   const std::string schema = temporary("schema.xsd", xml::schema<T>());
   const std::string file = temporary("text.xml", text);
-  const bool by_schema = valid_by_schema(schema, {file}).contains(file);
-  const std::string refused = example::refusal_of<T>(text);
-  INFO(text << "\n" << refused);
-  CHECK(by_schema == refused.empty());
+  const bool is_valid_by_schema = valid_by_schema(schema, {file}).contains(file);
+  const std::string errors = example::refusal_of<T>(text);
+  INFO(text << "\n" << errors);
+  CHECK(is_valid_by_schema == errors.empty());
   std::filesystem::remove(schema);
   std::filesystem::remove(file);
-  return by_schema && refused.empty();
+  return is_valid_by_schema && errors.empty();
 }
 
 /// Values of each type, for comparing what reader and XSD accept.
@@ -60,27 +60,28 @@ struct Mixture {
 }  // namespace
 
 TEST_CASE("reader and XSD accept the same values") {
-  const auto with = [](const std::string& attribute, const std::string& text) {
+  const auto accepts = [](const std::string& attribute, const std::string& text) {
     return both_accept<Numbers>("<numbers " + attribute + "=\"" + text + "\"/>");
   };
-  for (const char* good : {"1", "-1.5", " 1 ", "+1", ".5", "5.", "1e5", "1.E+5", "-0"})
-    CHECK(with("x", good));
-  for (const char* bad : {"", "1e", ".", "e5", "NaN", "INF", "-INF", "1 2", "0x1", "1e999", "1d"})
-    CHECK_FALSE(with("x", bad));
-  CHECK_FALSE(with("open", "0"));
-  CHECK(with("closed", "0"));
-  CHECK_FALSE(with("closed", "1.0000001"));
-  for (const char* good : {"0", " -7 ", "+7", "007"}) CHECK(with("i", good));
-  for (const char* bad : {"1.0", "", "3000000000", "1e3"}) CHECK_FALSE(with("i", bad));
-  CHECK(with("large", "1000000000"));
-  CHECK_FALSE(with("large", "1000000001"));
-  CHECK_FALSE(with("seed", "-1"));
-  for (const char* bad : {"1", "TRUE", "", "yes"}) CHECK_FALSE(with("b", bad));
-  CHECK(with("b", " true "));
-  CHECK(with("s", ""));
-  CHECK(with("v", " 1  2\n3 "));
-  CHECK(with("list", ""));
-  for (const char* bad : {"1 2", "1 2 3 4", "1 2 -3", ""}) CHECK_FALSE(with("v", bad));
+  for (const char* valid : {"1", "-1.5", " 1 ", "+1", ".5", "5.", "1e5", "1.E+5", "-0"})
+    CHECK(accepts("x", valid));
+  for (const char* invalid :
+       {"", "1e", ".", "e5", "NaN", "INF", "-INF", "1 2", "0x1", "1e999", "1d"})
+    CHECK_FALSE(accepts("x", invalid));
+  CHECK_FALSE(accepts("open", "0"));
+  CHECK(accepts("closed", "0"));
+  CHECK_FALSE(accepts("closed", "1.0000001"));
+  for (const char* valid : {"0", " -7 ", "+7", "007"}) CHECK(accepts("i", valid));
+  for (const char* invalid : {"1.0", "", "3000000000", "1e3"}) CHECK_FALSE(accepts("i", invalid));
+  CHECK(accepts("large", "1000000000"));
+  CHECK_FALSE(accepts("large", "1000000001"));
+  CHECK_FALSE(accepts("seed", "-1"));
+  for (const char* invalid : {"1", "TRUE", "", "yes"}) CHECK_FALSE(accepts("b", invalid));
+  CHECK(accepts("b", " true "));
+  CHECK(accepts("s", ""));
+  CHECK(accepts("v", " 1  2\n3 "));
+  CHECK(accepts("list", ""));
+  for (const char* invalid : {"1 2", "1 2 3 4", "1 2 -3", ""}) CHECK_FALSE(accepts("v", invalid));
 }
 
 TEST_CASE("reader and XSD accept the same children") {

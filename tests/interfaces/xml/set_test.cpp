@@ -6,7 +6,7 @@
 
 using example::refusal;
 
-TEST_CASE("the path sets an attribute of the struct, of a single child or of a named list item") {
+TEST_CASE("a path selects an attribute of the struct, of a single child or of a named list item") {
   example::Params p;
   p.tracks = {{{}, "flexor", 1}, {{}, "extensor", 1}};
   xml::set(p, "gain_per_s", "4");
@@ -21,7 +21,7 @@ TEST_CASE("the path sets an attribute of the struct, of a single child or of a n
   CHECK(cart.bell->tone == "d");
 }
 
-TEST_CASE("an invalid value changes nothing and is refused with the valid range") {
+TEST_CASE("an invalid value changes nothing and is rejected with the valid range") {
   example::Params p;
   CHECK(refusal([&] { xml::set(p, "gain_per_s", "-1"); }) ==
         "--set gain_per_s=-1: is out of range; give a number > 0");
@@ -32,7 +32,7 @@ TEST_CASE("an invalid value changes nothing and is refused with the valid range"
   CHECK_FALSE(p.limit_N.has_value());
 }
 
-TEST_CASE("an unknown path is refused with the nearest one, at every level") {
+TEST_CASE("an unknown path is rejected with the nearest name, at every level") {
   example::Params p;
   p.tracks = {{{}, "flexor", 1}};
   CHECK_THAT(refusal([&] { xml::set(p, "gian_per_s", "1"); }),

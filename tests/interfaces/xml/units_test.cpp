@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-TEST_CASE("the unit of a name is its end, per becomes a quotient and digits become powers") {
+TEST_CASE("the unit is the end of a name; per becomes a quotient and digits become powers") {
   CHECK(xml::unit_of("mass_kg") == "kg");
   CHECK(xml::unit_of("raise_N_per_s") == "N/s");
   CHECK(xml::unit_of("back_emf_V_s_per_rad") == "V s/rad");
@@ -12,7 +12,7 @@ TEST_CASE("the unit of a name is its end, per becomes a quotient and digits beco
   CHECK(xml::unit_of("  brake_s") == "s");
 }
 
-TEST_CASE("a name without a unit has none") {
+TEST_CASE("a name without a unit gives an empty text") {
   CHECK(xml::unit_of("name") == "");
   CHECK(xml::unit_of("counts") == "");
   CHECK(xml::unit_of("half_width") == "");

@@ -8,7 +8,7 @@ TEST_CASE("the edit distance counts letters to insert, delete or replace, ignori
   CHECK(xml::edit_distance("Mass_KG", "mass_kg") == 0);
 }
 
-TEST_CASE("names with typing errors or another unit have a nearest name, other words have none") {
+TEST_CASE("names with typing errors or another unit have a nearest name; other words have none") {
   const std::vector<std::string> known{"length_m", "mass_kg", "name"};
   CHECK(xml::nearest("legnth_m", known) == "length_m");
   CHECK(xml::nearest("mass", known) == "mass_kg");
@@ -18,7 +18,7 @@ TEST_CASE("names with typing errors or another unit have a nearest name, other w
   CHECK(xml::nearest("x", known).empty());
 }
 
-TEST_CASE("all known names are listed if none is close") {
+TEST_CASE("all known names are listed if no name is near") {
   CHECK(xml::did_you_mean("colour", {"name", "mass_kg"}) == "valid names: name, mass_kg");
   CHECK(xml::did_you_mean("colour", {}) == "remove it");
 }

@@ -35,13 +35,13 @@ TEST_CASE("any finite number is read back bit-equal") {
     double value = 0;
     std::memcpy(&value, &bits, sizeof value);
     if (!std::isfinite(value)) continue;
-    double back = 0;
-    REQUIRE_FALSE(xml::read_number(xml::write_number(value), back, xml::any));
-    REQUIRE(same_bits(back, value));
+    double read_back = 0;
+    REQUIRE_FALSE(xml::read_number(xml::write_number(value), read_back, xml::any));
+    REQUIRE(same_bits(read_back, value));
   }
-  double back = 1;
-  REQUIRE_FALSE(xml::read_number(xml::write_number(-0.0), back, xml::any));
-  CHECK(same_bits(back, -0.0));
+  double read_back = 1;
+  REQUIRE_FALSE(xml::read_number(xml::write_number(-0.0), read_back, xml::any));
+  CHECK(same_bits(read_back, -0.0));
 }
 
 TEST_CASE("numbers of at least 1e-4 and below 1e20 are written without an exponent") {
@@ -51,10 +51,10 @@ TEST_CASE("numbers of at least 1e-4 and below 1e20 are written without an expone
   CHECK(xml::write_number(0.1f) == "0.1");
 }
 
-TEST_CASE("any text is read back, markup and line breaks included") {
+TEST_CASE("any text is read back equal, including markup and line breaks") {
   const example::Row row{{example::Bell{"<&>\"'\r\n\t größe  "}}};
-  const auto back = xml::parse<example::Row>(xml::write(row), "f.xml");
-  CHECK(std::get<example::Bell>(back.things.at(0)).tone == "<&>\"'\r\n\t größe  ");
+  const auto read_back = xml::parse<example::Row>(xml::write(row), "f.xml");
+  CHECK(std::get<example::Bell>(read_back.things.at(0)).tone == "<&>\"'\r\n\t größe  ");
 }
 
 TEST_CASE("single and optional children are written and read back") {
@@ -65,7 +65,7 @@ TEST_CASE("single and optional children are written and read back") {
   CHECK(xml::write(xml::parse<example::Cart>(text, "f.xml")) == text);
 }
 
-TEST_CASE("long elements wrap at a hundred columns") {
+TEST_CASE("elements longer than 100 columns are wrapped") {
   example::Params p;
   p.names.assign(8, "a_rather_long_name");
   p.offset_m = {0.1, 0.2, 0.3};

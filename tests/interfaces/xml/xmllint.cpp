@@ -14,14 +14,14 @@ std::set<std::string> valid_by_schema(const std::string& schema_file,
   for (const std::string& file : files) command += " '" + file + "'";
   const std::unique_ptr<FILE, int (*)(FILE*)> out(popen((command + " 2>&1").c_str(), "r"), pclose);
   std::set<std::string> valid;
-  std::string all;
+  std::string output;
   for (char line[4096]; std::fgets(line, sizeof line, out.get());) {
     const std::string text = line;
-    all += text;
+    output += text;
     if (text.ends_with(" validates\n")) valid.insert(text.substr(0, text.size() - 11));
   }
-  if (all.find("not found") != all.npos || all.find("failed to compile") != all.npos)
-    throw std::runtime_error(all);
+  if (output.find("not found") != output.npos || output.find("failed to compile") != output.npos)
+    throw std::runtime_error(output);
   return valid;
 }
 

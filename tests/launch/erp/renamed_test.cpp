@@ -59,16 +59,16 @@ TEST_CASE("a sim config with <grasp> and <mishap> is valid; each former name is 
                   "  <grasp body=\"forearm\" at_m=\"0 0 0\" mass_kg=\"1\" at_s=\"2\"/>\n"
                   "  <mishap kind=\"tendon_snaps\" on=\"flexor\" at_s=\"1\"/>\n"
                   "</sim>\n");
-  const Result old = folder.run({"erp", "check", file});
-  INFO(old.text);
-  CHECK(old.code == 0);
-  CHECK(warnings(old) == 2);
-  CHECK_THAT(old.text,
+  const Result former = folder.run({"erp", "check", file});
+  INFO(former.text);
+  CHECK(former.code == 0);
+  CHECK(warnings(former) == 2);
+  CHECK_THAT(former.text,
              Contains("warning: " + file + ":2:3: <grasp> is deprecated; write <attached_load>\n"));
-  CHECK_THAT(old.text, Contains(file + ":4:3: <mishap> is deprecated; write <fault>\n"));
-  const Result now = folder.run({"erp", "check", config("twin_joint/sim_attached_load.xml")});
-  CHECK(now.code == 0);
-  CHECK(warnings(now) == 0);
+  CHECK_THAT(former.text, Contains(file + ":4:3: <mishap> is deprecated; write <fault>\n"));
+  const Result current = folder.run({"erp", "check", config("twin_joint/sim_attached_load.xml")});
+  CHECK(current.code == 0);
+  CHECK(warnings(current) == 0);
 }
 
 TEST_CASE("a learned map with its former root element and attribute is valid; each is reported") {
@@ -77,13 +77,13 @@ TEST_CASE("a learned map with its former root element and attribute is valid; ea
                                 "<sensorimotor_learnt squares=\"1 1\">\n"
                                 "  <sense ties=\"1 2\"/>\n  <sense ties=\"3 4\"/>\n"
                                 "</sensorimotor_learnt>\n");
-  const Result old = folder.run({"erp", "check", file});
-  INFO(old.text);
-  CHECK(old.code == 0);
-  CHECK(warnings(old) == 2);
-  CHECK_THAT(old.text,
+  const Result former = folder.run({"erp", "check", file});
+  INFO(former.text);
+  CHECK(former.code == 0);
+  CHECK(warnings(former) == 2);
+  CHECK_THAT(former.text,
              Contains(":1:1: <sensorimotor_learnt> is deprecated; write <sensorimotor_learned>"));
-  CHECK_THAT(old.text, Contains(":2:10: \"ties\" is deprecated; write \"weights\""));
+  CHECK_THAT(former.text, Contains(":2:10: \"ties\" is deprecated; write \"weights\""));
 }
 
 TEST_CASE("a former parameter is set by --set and by a config, with a warning") {
@@ -102,7 +102,7 @@ TEST_CASE("a former parameter is set by --set and by a config, with a warning") 
   CHECK(read.text == "warning: " + file + ":1:17: \"liking\" is deprecated; write \"objective\"\n");
 }
 
-TEST_CASE("an attribute given under both names is refused") {
+TEST_CASE("an attribute given under both names is rejected") {
   const Folder folder;
   const auto file =
       folder.file("config.xml", "<computed_force liking=\"smooth\" objective=\"smooth\"/>");
@@ -119,17 +119,19 @@ TEST_CASE("a diagnosis.json of format 1 gives the same plan, with one warning pe
                        "--candidates", "3"});
   };
   const auto file = folder.file("old.json", diagnosis("confusable", "mend_first"));
-  const Result old = plan(file);
-  INFO(old.text);
-  REQUIRE(old.code == 0);
-  CHECK(warnings(old) == 2);
-  CHECK_THAT(old.text, Contains(file + ": \"mend_first\" is deprecated; write \"fix_first\"\n"));
-  CHECK_THAT(old.text, Contains(file + ": \"confusable\" is deprecated; write \"confounders\"\n"));
-  CHECK_THAT(old.text, Contains("fix its recordings first"));
-  const Result now = plan(folder.file("new.json", diagnosis("confounders", "fix_first")));
-  CHECK(now.code == 0);
-  CHECK(warnings(now) == 0);
-  CHECK(old.text.substr(old.text.find("suspects ")) == now.text.substr(now.text.find("suspects ")));
+  const Result former = plan(file);
+  INFO(former.text);
+  REQUIRE(former.code == 0);
+  CHECK(warnings(former) == 2);
+  CHECK_THAT(former.text, Contains(file + ": \"mend_first\" is deprecated; write \"fix_first\"\n"));
+  CHECK_THAT(former.text,
+             Contains(file + ": \"confusable\" is deprecated; write \"confounders\"\n"));
+  CHECK_THAT(former.text, Contains("fix its recordings first"));
+  const Result current = plan(folder.file("new.json", diagnosis("confounders", "fix_first")));
+  CHECK(current.code == 0);
+  CHECK(warnings(current) == 0);
+  CHECK(former.text.substr(former.text.find("suspects ")) ==
+        current.text.substr(current.text.find("suspects ")));
 }
 
 TEST_CASE("erp gap twins --together lists confounders with two warnings; --help lists neither") {
@@ -138,22 +140,22 @@ TEST_CASE("erp gap twins --together lists confounders with two warnings; --help 
     return folder.run({"erp", "gap", verb, "--robot", config("hinge_rig/robot.xml"), "--seconds",
                        "4", option, "1"});
   };
-  const Result old = list("twins", "--together");
-  INFO(old.text);
-  CHECK(old.code == 0);
-  CHECK(warnings(old) == 2);
-  CHECK_THAT(old.text,
+  const Result former = list("twins", "--together");
+  INFO(former.text);
+  CHECK(former.code == 0);
+  CHECK(warnings(former) == 2);
+  CHECK_THAT(former.text,
              Contains("warning: erp gap: \"twins\" is deprecated; write \"confounders\"\n"));
-  CHECK_THAT(old.text, Contains("\"--together\" is deprecated; write \"--max-effects\"\n"));
-  const Result now = list("confounders", "--max-effects");
-  CHECK(now.code == 0);
-  CHECK(warnings(now) == 0);
-  CHECK_THAT(old.text, Contains("routing_pulley_radius on flexor"));
-  CHECK_THAT(now.text, Contains("routing_pulley_radius on flexor"));
+  CHECK_THAT(former.text, Contains("\"--together\" is deprecated; write \"--max-effects\"\n"));
+  const Result current = list("confounders", "--max-effects");
+  CHECK(current.code == 0);
+  CHECK(warnings(current) == 0);
+  CHECK_THAT(former.text, Contains("routing_pulley_radius on flexor"));
+  CHECK_THAT(current.text, Contains("routing_pulley_radius on flexor"));
   CHECK_THAT(folder.run({"erp", "gap", "--help"}).text, !Contains("twins"));
   CHECK_THAT(folder.run({"erp", "gap", "confounders", "--help"}).text, !Contains("--together"));
-  const Result refused = list("confounders", "--together=99");
-  CHECK(refused.code == 2);
+  const Result rejected = list("confounders", "--together=99");
+  CHECK(rejected.code == 2);
 }
 
 TEST_CASE("former options of erp calibrate tour and erp launch have the effect of the new ones") {
@@ -163,14 +165,14 @@ TEST_CASE("former options of erp calibrate tour and erp launch have the effect o
                        "--out", folder / "tour.csv"});
   };
   const auto written = [&] { return tests::content(folder / "tour.csv"); };
-  const Result old = tour("--still", "--way");
-  INFO(old.text);
-  CHECK(old.code == 0);
-  CHECK(warnings(old) == 2);
+  const Result former = tour("--still", "--way");
+  INFO(former.text);
+  CHECK(former.code == 0);
+  CHECK(warnings(former) == 2);
   const auto first = written();
-  const Result now = tour("--hold", "--move");
-  CHECK(now.code == 0);
-  CHECK(warnings(now) == 0);
+  const Result current = tour("--hold", "--move");
+  CHECK(current.code == 0);
+  CHECK(warnings(current) == 0);
   CHECK(first == written());
   CHECK_FALSE(first.empty());
   const Result launched = folder.run({"erp", "launch", "missing.xml", "--patience", "60s"});

@@ -14,8 +14,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A `sim` that publishes the clock and a `worker` that subscribes to it, on a domain of their own,
-/// without launcher.
+/// A `sim` that publishes the clock and a `worker` that subscribes to it. Both run without launcher
+/// on a DDS domain of their own.
 struct Bus {
   fs::path folder;
   launch::Process sim, worker;

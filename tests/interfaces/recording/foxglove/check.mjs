@@ -1,4 +1,5 @@
-// Reads our recording with Foxglove's packages, and their recording with our reader.
+// Reads a recording of this project with Foxglove's packages, and a recording of these packages with the reader
+// of this project.
 //   node check.mjs FIXTURE_PROGRAM FOLDER
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
@@ -15,11 +16,11 @@ const readable = (bytes) => ({
   read: async (offset, length) => bytes.subarray(Number(offset), Number(offset + length)),
 });
 
-/** Whole numbers beyond 2^53 as text, typed arrays as arrays; the same for both sides. */
+/** Converts integers beyond 2^53 to text and typed arrays to arrays. Makes both sides comparable. */
 const plain = (value) => JSON.parse(JSON.stringify(value, (_, x) =>
   typeof x === "bigint" ? (Number.isSafeInteger(Number(x)) ? Number(x) : String(x))
   : ArrayBuffer.isView(x) ? Array.from(x) : x));
-/** Our tools show `tension_N`, ROS 2's rules allow Foxglove `tension_n`. */
+/** Converts names to lower case: this project writes `tension_N`, but ROS 2 allows only `tension_n`. */
 const lowered = (value) => Array.isArray(value) ? value.map(lowered)
   : value && typeof value === "object"
     ? Object.fromEntries(Object.entries(value).map(([key, x]) => [key.toLowerCase(), lowered(x)]))

@@ -10,7 +10,7 @@
 #include "tests/interfaces/recording/dds_capture.hpp"
 #include "tests/interfaces/recording/example_messages.hpp"
 
-// fixture write FILE.mcap FILE.jsonl   records an example of every topic, and writes its decoded text
+// fixture write FILE.mcap FILE.jsonl   records an example of every topic, writes its decoded text
 // fixture read FILE.mcap               prints the contents of a file, one line per message
 
 namespace {

@@ -1,5 +1,5 @@
-# Installs the locked packages into the build folder (from npm's cache when it has them) and runs
-# the check. Called by ctest with SOURCE, WORK, FIXTURE, NPM, NODE.
+# Installs the locked packages into the build folder, from npm's cache if possible, and runs the check. ctest
+# calls it with SOURCE, WORK, FIXTURE, NPM, NODE.
 file(MAKE_DIRECTORY ${WORK})
 file(COPY ${SOURCE}/package.json ${SOURCE}/package-lock.json ${SOURCE}/check.mjs DESTINATION ${WORK})
 execute_process(COMMAND ${NPM} ci --prefer-offline --no-audit --no-fund --loglevel=error

@@ -32,21 +32,20 @@ TEST_CASE("blind cases are made, diagnosed and scored; a changed truth file is r
   launch::gap::BlindMakeOptions make{.robot = robot_file, .out = cases, .truth = truth};
   make.cases = 2, make.recordings = 3, make.seconds = 5, make.seed = 14;
   REQUIRE(launch::gap::blind_make(make, out, remarks) == 0);
-  const std::string before = out.str();
   REQUIRE(launch::gap::blind_run({cases, 2}, out, remarks) == 0);
   out.str("");
   REQUIRE(launch::gap::blind_score(cases, truth, out) == 0);
   CHECK_THAT(out.str(), Catch::Contains("stage and place") && Catch::Contains("(2 of 2)"));
 
-  const auto d = nlohmann::json::parse(std::ifstream(cases + "/case_0001/diagnosis.json"));
+  const auto diagnosis = nlohmann::json::parse(std::ifstream(cases + "/case_0001/diagnosis.json"));
   for (const char* name :
        {"verdict", "where", "effects", "confounders", "gap", "recordings", "warnings"})
-    CHECK(d.contains(name));
+    CHECK(diagnosis.contains(name));
   for (const char* name :
        {"type", "on", "parameters", "intervals", "gain", "gain_interval", "supported"})
-    CHECK(d["effects"][0].contains(name));
+    CHECK(diagnosis["effects"][0].contains(name));
   for (const char* name : {"before", "floor", "after", "closed", "closed_interval"})
-    CHECK(d["gap"].contains(name));
+    CHECK(diagnosis["gap"].contains(name));
 
   fs::remove(cases + "/case_0002/diagnosis.json");
   out.str("");
@@ -66,30 +65,30 @@ TEST_CASE(
   std::ostringstream out, remarks;
   launch::gap::BlindMakeOptions make{
       .robot = robot_file, .out = folder.path / "cases", .truth = folder.path / "cases/truth.json"};
-  const auto rejected = [&](const char* why) {
-    CHECK_THROWS_WITH(launch::gap::blind_make(make, out, remarks), Catch::Contains(why));
+  const auto check_rejected = [&](const char* reason) {
+    CHECK_THROWS_WITH(launch::gap::blind_make(make, out, remarks), Catch::Contains(reason));
     CHECK_FALSE(fs::exists(folder.path / "cases"));
   };
-  rejected("is in the folder of the cases");
+  check_rejected("is in the folder of the cases");
   make.truth = folder.path / "truth.json";
   std::ofstream(make.truth) << "[]";
-  rejected("belongs to other cases");
+  check_rejected("belongs to other cases");
   make.truth = folder.path / "another.json";
   make.robot = rigs::config("drive/robot.xml");
-  rejected("has no actuator");
+  check_rejected("has no actuator");
   erp::Robot with_effect = erp::read_robot(robot_file);
   with_effect.effects = {{{}, "gearbox_coulomb", "extensor", {{{}, "extra_Nm", "0.03"}}}};
   make.robot = folder.path / "with_effect.xml";
   std::ofstream(make.robot) << erp::write_robot(with_effect);
-  rejected("has effects");
+  check_rejected("has effects");
 }
 
 TEST_CASE("a robot whose initial pose is beyond its stops is recorded") {
   const Folder folder;
   std::string robot = erp::write_robot(erp::read_robot(robot_file));
-  const std::string wide = R"(min_rad="-1.2" max_rad="1.6")";
-  REQUIRE(robot.find(wide) != robot.npos);
-  robot.replace(robot.find(wide), wide.size(), R"(min_rad="-0.01" max_rad="0.01")");
+  const std::string stops = R"(min_rad="-1.2" max_rad="1.6")";
+  REQUIRE(robot.find(stops) != robot.npos);
+  robot.replace(robot.find(stops), stops.size(), R"(min_rad="-0.01" max_rad="0.01")");
   std::ofstream(folder.path / "robot.xml") << robot;
   std::ostringstream out, remarks;
   launch::gap::BlindMakeOptions make{.robot = folder.path / "robot.xml",
@@ -135,9 +134,9 @@ TEST_CASE(
                           {"effects", effects},
                           {"confounders", confounders}};
   };
-  const auto none = nlohmann::json::array();
-  add_case("both", {effect("a"), effect("b")}, none);
-  add_case("one_of_three", {effect("a"), effect("c"), effect("d")}, none);
+  const auto no_confounders = nlohmann::json::array();
+  add_case("both", {effect("a"), effect("b")}, no_confounders);
+  add_case("one_of_three", {effect("a"), effect("c"), effect("d")}, no_confounders);
   auto one = effect("a"), other = effect("equivalent_of_b"), same = effect("b");
   other["set"] = same["set"] = 1;
   add_case("by_equivalent", {one, other}, {other, same});
@@ -154,12 +153,12 @@ TEST_CASE(
   const auto number = [](const char* name, double value) {
     return nlohmann::json{{"on", "flexor"}, {"name", name}, {"value", value}};
   };
-  const auto constant = [](const char* name, double value, double half, bool differs) {
+  const auto constant = [](const char* name, double value, double half_width, bool differs) {
     return nlohmann::json{{"on", "flexor"},
                           {"name", name},
                           {"nominal", 1},
                           {"value", value},
-                          {"interval", {value - half, value + half}},
+                          {"interval", {value - half_width, value + half_width}},
                           {"determined", 0.9},
                           {"differs", differs}};
   };
@@ -201,24 +200,24 @@ TEST_CASE("a robot whose constants all deviate by 3 % is drawn, diagnosed and sc
   REQUIRE(launch::gap::blind_make(make, out, remarks) == 0);
   const auto hidden = nlohmann::json::parse(std::ifstream(truth));
   CHECK(hidden[0]["hidden"].empty());
-  double largest = 0;
+  double largest_deviation = 0;
   int motors = 0;
   for (const auto& number : hidden[0]["numbers"])
     if (number["name"] == "resistance_ohm") {
-      const double off = number["value"].get<double>() / 0.516 - 1;
-      CHECK(off != 0);
+      const double deviation = number["value"].get<double>() / 0.516 - 1;
+      CHECK(deviation != 0);
       ++motors;
-      largest = std::max(largest, std::abs(off));
+      largest_deviation = std::max(largest_deviation, std::abs(deviation));
     }
   CHECK(motors == 2);
-  CHECK(largest < 0.15);
+  CHECK(largest_deviation < 0.15);
   REQUIRE(launch::gap::blind_run({cases, 2, true}, out, remarks) == 0);
   out.str("");
   REQUIRE(launch::gap::blind_score(cases, truth, out) == 0);
   CHECK_THAT(out.str(), Catch::Contains("null, as built") &&
                             Catch::Contains("explained by constants alone  100.0 %") &&
                             Catch::Contains("90 % closed in free run       100.0 %"));
-  const auto d = nlohmann::json::parse(std::ifstream(cases + "/case_0001/diagnosis.json"));
-  CHECK_FALSE(d["constants"].empty());
-  CHECK_FALSE(d["where"].empty());
+  const auto diagnosis = nlohmann::json::parse(std::ifstream(cases + "/case_0001/diagnosis.json"));
+  CHECK_FALSE(diagnosis["constants"].empty());
+  CHECK_FALSE(diagnosis["where"].empty());
 }

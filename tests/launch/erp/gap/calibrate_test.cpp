@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A recording of the rig without a gap, and the model with tolerances.
+/// Writes a recording of the rig without a gap, and a model with a tolerance.
 struct Folder {
   fs::path path = fs::temp_directory_path() / ("erp_calibrate_" + std::to_string(::getpid()));
   Folder() { fs::create_directories(path); }
@@ -57,10 +57,10 @@ std::string printed(int processes, const std::string& verb, const fs::path& fold
   return text_of(file);
 }
 
-erp::Tolerance tolerance(const char* of, double relative) {
-  erp::Tolerance t;
-  t.of = of, t.on = "forearm", t.relative = relative;
-  return t;
+erp::Tolerance tolerance(const char* constant, double relative) {
+  erp::Tolerance tolerance;
+  tolerance.of = constant, tolerance.on = "forearm", tolerance.relative = relative;
+  return tolerance;
 }
 
 std::string calibrated(const std::string& robot, const std::string& recording) {
@@ -107,9 +107,9 @@ TEST_CASE(
   const Folder folder;
   std::ofstream(folder.path / "file") << "no folder";
   std::ostringstream out, remarks;
-  const auto run = [&](const fs::path& to, const std::string& recording) {
+  const auto run = [&](const fs::path& output, const std::string& recording) {
     launch::gap::CalibrateOptions options{.robot = rigs::config("hinge_rig/robot.xml")};
-    options.out = to, options.recordings = {recording};
+    options.out = output, options.recordings = {recording};
     launch::gap::calibrate(options, out, remarks);
   };
   CHECK_THROWS_WITH(run(folder.path / "file" / "built.xml", folder.path / "no_such.csv"),
@@ -138,11 +138,12 @@ TEST_CASE(
         rig_recording::table_of_run(built, {.seconds = 4, .seed = std::uint64_t(k + 1)}), out);
     files += " " + file.string();
   }
-  const std::string of = " --robot " + rigs::config("hinge_rig/robot.xml") + " --real" + files;
+  const std::string arguments =
+      " --robot " + rigs::config("hinge_rig/robot.xml") + " --real" + files;
   for (const char* verb : {"calibrate", "diagnose"}) {
     INFO(verb);
-    const std::string one = printed(1, verb + of, folder.path);
+    const std::string one = printed(1, verb + arguments, folder.path);
     CHECK(one.find("flexor") != std::string::npos);
-    CHECK(printed(2, verb + of, folder.path) == one);
+    CHECK(printed(2, verb + arguments, folder.path) == one);
   }
 }

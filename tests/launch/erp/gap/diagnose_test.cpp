@@ -15,11 +15,11 @@ struct Result {
   std::string text;
 };
 
-Result diagnosed(const RecordedRig& folder, launch::gap::DiagnoseOptions how) {
-  if (how.robot.empty()) how.robot = rig_file;
-  how.out = folder.path / "found";
+Result diagnosed(const RecordedRig& folder, launch::gap::DiagnoseOptions options) {
+  if (options.robot.empty()) options.robot = rig_file;
+  options.out = folder.path / "found";
   std::ostringstream out, remarks;
-  const int code = launch::gap::diagnose(how, out, remarks);
+  const int code = launch::gap::diagnose(options, out, remarks);
   return {code, out.str()};
 }
 
@@ -38,25 +38,25 @@ TEST_CASE("the corrected model of a robot.xml that includes other files is writt
 
 TEST_CASE("the exit code reports the verdict; robot.xml is written if the gap is explained") {
   const RecordedRig folder;
-  const auto plain = folder.recorded("plain.csv", false, 1);
+  const auto no_gap = folder.recorded("plain.csv", false, 1);
   const auto friction = folder.recorded("friction.csv", true, 1),
-             again = folder.recorded("again.csv", true, 2);
+             friction_2 = folder.recorded("again.csv", true, 2);
 
-  const Result explained = diagnosed(folder, {.recordings = {friction, again}});
+  const Result explained = diagnosed(folder, {.recordings = {friction, friction_2}});
   INFO(explained.text);
   CHECK(explained.code == 0);
   CHECK_THAT(explained.text, Catch::Contains("free run"));
   CHECK_THAT(explained.text, !Catch::Contains("free-run error"));
-  const erp::Robot with = erp::read_robot(folder.found("robot.xml"));
-  REQUIRE(with.effects.size() == 1);
-  CHECK(with.effects[0].type == "gearbox_coulomb");
+  const erp::Robot corrected = erp::read_robot(folder.result("robot.xml"));
+  REQUIRE(corrected.effects.size() == 1);
+  CHECK(corrected.effects[0].type == "gearbox_coulomb");
   CHECK_THAT(folder.read("robot.xml"), Catch::Contains("<!-- One joint, two antagonistic"));
 
-  CHECK(diagnosed(folder, {.recordings = {plain}}).code == 3);
-  CHECK_FALSE(fs::exists(folder.found("robot.xml")));
+  CHECK(diagnosed(folder, {.recordings = {no_gap}}).code == 3);
+  CHECK_FALSE(fs::exists(folder.result("robot.xml")));
 
   const Result withheld =
-      diagnosed(folder, {.recordings = {friction, again},
+      diagnosed(folder, {.recordings = {friction, friction_2},
                          .withhold = {"gearbox_coulomb", "gearbox_asymmetric", "gearbox_stribeck",
                                       "gearbox_ageing_stiction", "gearbox_position_dependent",
                                       "gearbox_load_dependent", "motor_cogging", "motor_dead_band"},
@@ -67,10 +67,10 @@ TEST_CASE("the exit code reports the verdict; robot.xml is written if the gap is
                                 Catch::Contains("withheld    gearbox_coulomb, ") &&
                                 Catch::Contains("next        erp gap plan --robot "));
 
-  CHECK(diagnosed(folder, {.train = {friction}, .held_out = {plain}}).code == 5);
+  CHECK(diagnosed(folder, {.train = {friction}, .held_out = {no_gap}}).code == 5);
 
   const Result all_train =
-      diagnosed(folder, {.recordings = {friction, again}, .train = {friction, again}});
+      diagnosed(folder, {.recordings = {friction, friction_2}, .train = {friction, friction_2}});
   CHECK(all_train.code == 5);
   CHECK_THAT(all_train.text, Catch::Contains("no recording is held out") &&
                                  !Catch::Contains("there is only one recording"));
@@ -102,7 +102,7 @@ TEST_CASE("one recording that is too short to be split: not identifiable, candid
   CHECK_THAT(result.text, Catch::Contains("candidate   gearbox_") &&
                               Catch::Contains("it was not split") &&
                               Catch::Contains("on the training data"));
-  CHECK_FALSE(fs::exists(folder.found("robot.xml")));
+  CHECK_FALSE(fs::exists(folder.result("robot.xml")));
   CHECK_THAT(folder.read("report.html"), Catch::Contains("no other recording to validate it") &&
                                              Catch::Contains("<p>Candidates:</p>") &&
                                              !Catch::Contains("held-out recordings"));
@@ -141,34 +141,37 @@ TEST_CASE(
 }
 
 TEST_CASE("the report lists the estimated constants, those that deviate from robot.xml first") {
-  sim::diagnosis::Diagnosis d;
-  d.verdict = sim::diagnosis::Verdict::supported;
+  sim::diagnosis::Diagnosis diagnosis;
+  diagnosis.verdict = sim::diagnosis::Verdict::supported;
   const erp::Robot robot = erp::read_robot(rig_file);
-  CHECK_THAT(launch::gap::diagnosis_report(d, {}, robot), !Catch::Contains("<h2>Constants</h2>"));
-  sim::diagnosis::ConstantEstimate off{.name = "resistance_ohm", .on = "flexor"};
-  off.nominal = 0.5, off.tolerance = 0.01, off.value = 0.52, off.interval = {0.515, 0.525};
-  off.determined = 0.9;
-  auto open = off;
-  open.name = "mass_kg", open.determined = 0.1;
-  d.constants = {open, off}, d.as_built = robot;
-  const std::string page = launch::gap::diagnosis_report(d, {}, robot);
-  const auto all = page.find("All 2");
-  REQUIRE(all != page.npos);
-  CHECK(page.find("resistance_ohm") < all);
-  CHECK(page.find("mass_kg") > all);
-  CHECK_THAT(page, Catch::Contains("several constants together, each within its tolerance") &&
-                       Catch::Contains("0.515 … 0.525") && Catch::Contains("not determined"));
+  CHECK_THAT(launch::gap::diagnosis_report(diagnosis, {}, robot),
+             !Catch::Contains("<h2>Constants</h2>"));
+  sim::diagnosis::ConstantEstimate deviating{.name = "resistance_ohm", .on = "flexor"};
+  deviating.nominal = 0.5, deviating.tolerance = 0.01, deviating.value = 0.52,
+  deviating.interval = {0.515, 0.525};
+  deviating.determined = 0.9;
+  auto undetermined = deviating;
+  undetermined.name = "mass_kg", undetermined.determined = 0.1;
+  diagnosis.constants = {undetermined, deviating}, diagnosis.as_built = robot;
+  const std::string report = launch::gap::diagnosis_report(diagnosis, {}, robot);
+  const auto all = report.find("All 2");
+  REQUIRE(all != report.npos);
+  CHECK(report.find("resistance_ohm") < all);
+  CHECK(report.find("mass_kg") > all);
+  CHECK_THAT(report, Catch::Contains("several constants together, each within its tolerance") &&
+                         Catch::Contains("0.515 … 0.525") && Catch::Contains("not determined"));
 }
 
 TEST_CASE("an output folder that cannot be created is rejected; a failed diagnosis creates none") {
   const RecordedRig folder;
   const auto one = folder.recorded("one.csv", false, 1);
   std::ostringstream out, remarks;
-  launch::gap::DiagnoseOptions how{.robot = rig_file, .recordings = {one}};
-  how.out = one + "/below_a_file";
-  CHECK_THROWS_WITH(launch::gap::diagnose(how, out, remarks), Catch::Contains("cannot be made"));
-  how.out = folder.path / "new/er", how.train = {one}, how.held_out = {one};
-  CHECK_THROWS(launch::gap::diagnose(how, out, remarks));
+  launch::gap::DiagnoseOptions options{.robot = rig_file, .recordings = {one}};
+  options.out = one + "/below_a_file";
+  CHECK_THROWS_WITH(launch::gap::diagnose(options, out, remarks),
+                    Catch::Contains("cannot be made"));
+  options.out = folder.path / "new/er", options.train = {one}, options.held_out = {one};
+  CHECK_THROWS(launch::gap::diagnose(options, out, remarks));
   CHECK_FALSE(fs::exists(folder.path / "new"));
 }
 
@@ -185,15 +188,15 @@ TEST_CASE("the report shows location, candidate effects and gap closure, and nee
   CHECK_THAT(report, !Catch::Contains("href=") && !Catch::Contains("src=") &&
                          !Catch::Contains("nan") && !Catch::Contains("inf"));
 
-  const auto d = nlohmann::json::parse(folder.read("diagnosis.json"));
-  const auto& first = d["effects"][0];
+  const auto diagnosis = nlohmann::json::parse(folder.read("diagnosis.json"));
+  const auto& first = diagnosis["effects"][0];
   CHECK(first["type"] == "gearbox_coulomb");
   const auto& interval = first["intervals"]["extra_Nm"];
   CHECK(interval[0] < 0.03);
   CHECK(interval[1] > 0.03);
-  CHECK(d["gap"]["closed"] > 0.9);
-  CHECK(d["gap"]["closed_interval"][0] <= d["gap"]["closed"]);
-  for (const auto& [name, channel] : d["gap"]["channels"].items()) {
+  CHECK(diagnosis["gap"]["closed"] > 0.9);
+  CHECK(diagnosis["gap"]["closed_interval"][0] <= diagnosis["gap"]["closed"]);
+  for (const auto& [name, channel] : diagnosis["gap"]["channels"].items()) {
     INFO(name);
     CHECK(channel["closed"].is_null() == (name != "gearbox extensor"));
     CHECK(channel["driven_by"] > 0);
@@ -215,15 +218,16 @@ TEST_CASE("an unknown effect type, a recording given twice or in both lists is r
 
 TEST_CASE("a robot.xml that erp gap diagnose did not write is neither overwritten nor removed") {
   const RecordedRig folder;
-  const auto plain = folder.recorded("plain.csv", false, 1);
+  const auto no_gap = folder.recorded("plain.csv", false, 1);
   fs::create_directories(folder.path / "found");
-  const std::string mine = folder.found("robot.xml");
-  fs::copy_file(rig_file, mine);
-  launch::gap::DiagnoseOptions how{.recordings = {plain}};
-  CHECK_THROWS_WITH(diagnosed(folder, how), Catch::Contains("that erp gap diagnose did not write"));
+  const std::string own_model = folder.result("robot.xml");
+  fs::copy_file(rig_file, own_model);
+  launch::gap::DiagnoseOptions options{.recordings = {no_gap}};
+  CHECK_THROWS_WITH(diagnosed(folder, options),
+                    Catch::Contains("that erp gap diagnose did not write"));
   std::ostringstream out, remarks;
-  how.robot = mine, how.out = folder.path / "found";
-  CHECK_THROWS_WITH(launch::gap::diagnose(how, out, remarks),
+  options.robot = own_model, options.out = folder.path / "found";
+  CHECK_THROWS_WITH(launch::gap::diagnose(options, out, remarks),
                     Catch::Contains("is the model given by --robot"));
   CHECK(folder.read("robot.xml") == [&] {
     std::ifstream in(rig_file);

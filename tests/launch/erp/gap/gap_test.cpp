@@ -46,8 +46,8 @@ void check_no_faults(const erp::Robot& robot, const sim::closed_loop::SetPoints&
   CHECK(sim::checks::column_checks(episode, robot) == std::vector<std::string>{});
 }
 
-/// Sinusoidal lengths of 2 mm amplitude, a different frequency for each actuator.
-sim::closed_loop::SetPoints every_line_by_2_mm(const erp::Robot& robot, double seconds) {
+/// Set points of length with an amplitude of 2 mm and a different frequency for each actuator.
+sim::closed_loop::SetPoints sinusoidal_lengths(const erp::Robot& robot, double seconds) {
   sim::closed_loop::SetPoints set_points(static_cast<std::size_t>(500 * seconds));
   for (std::size_t k = 0; k < set_points.size(); ++k)
     for (std::size_t a = 0; a < robot.actuators.size(); ++a)
@@ -59,12 +59,12 @@ sim::closed_loop::SetPoints every_line_by_2_mm(const erp::Robot& robot, double s
 }  // namespace
 
 TEST_CASE("no effect: no gap; Coulomb friction of a gearbox: a gap at that gearbox") {
-  const auto plain = recorded("erp_gap_plain.csv", {});
+  const auto no_gap = recorded("erp_gap_plain.csv", {});
   const auto friction = recorded("erp_gap_friction.csv",
                                  {{{}, "gearbox_coulomb", "extensor", {{{}, "extra_Nm", "0.03"}}}});
-  CHECK_THAT(output_of({plain}), Catch::Contains("no gap"));
+  CHECK_THAT(output_of({no_gap}), Catch::Contains("no gap"));
   CHECK_THAT(output_of({friction}), Catch::Contains("the gap is in: gearbox of extensor\n"));
-  std::filesystem::remove(plain), std::filesystem::remove(friction);
+  std::filesystem::remove(no_gap), std::filesystem::remove(friction);
 }
 
 TEST_CASE("stages whose signals are missing are listed as not evaluated") {
@@ -104,19 +104,20 @@ TEST_CASE("simulated recordings of all prototypes are evaluated and have no susp
   for (const char* name : {"ecce1", "ecce2", "ecce3", "ecce4"}) {
     INFO(name);
     const erp::Robot robot = erp::read_robot(rigs::config(std::string(name) + "/robot.xml"));
-    check_no_faults(robot, every_line_by_2_mm(robot, 3));
+    check_no_faults(robot, sinusoidal_lengths(robot, 3));
   }
 }
 
 TEST_CASE("erp gap confounders lists indistinguishable effects without a recording") {
-  std::ostringstream out, remarks, less;
+  std::ostringstream out, remarks, without_tension;
   launch::gap::IndistinguishableOptions options{.robot = robot_file, .seconds = 4};
   CHECK(launch::gap::list_indistinguishable(options, out, remarks) == 0);
   CHECK_THAT(out.str(), Catch::Contains("routing_pulley_radius on flexor"));
   options.without = {"tension"};
-  CHECK(launch::gap::list_indistinguishable(options, less, remarks) == 0);
+  CHECK(launch::gap::list_indistinguishable(options, without_tension, remarks) == 0);
   CHECK_THAT(out.str(), Catch::Contains("tendon_kite_line"));
-  CHECK_THAT(less.str(), !Catch::Contains("tendon_kite_line"));  // not visible without tension
+  CHECK_THAT(without_tension.str(),
+             !Catch::Contains("tendon_kite_line"));  // not visible without tension
 }
 
 TEST_CASE(

@@ -13,9 +13,9 @@ erp::Robot hinge_rig() { return erp::read_robot(rigs::config("hinge_rig/robot.xm
 TEST_CASE("a tendon length offset beyond any zero error: the warning contains the correction") {
   const erp::Robot robot = hinge_rig();
   const auto warning = [&](double length_m) {
-    sim::diagnosis::IdentifiedEffect n{"tendon_length_offset", "flexor"};
-    n.values = {length_m};
-    return launch::gap::zero_offset_warning({n}, robot);
+    sim::diagnosis::IdentifiedEffect effect{"tendon_length_offset", "flexor"};
+    effect.values = {length_m};
+    return launch::gap::zero_offset_warning({effect}, robot);
   };
   const double radius_m = robot.actuators[0].spindle.radius_m;
   CHECK(warning(0.9 * radius_m).empty());
@@ -36,9 +36,9 @@ TEST_CASE("an answer that does not reduce the free-run error causes a warning") 
   const auto warning = [](double before, double after) {
     sim::diagnosis::Closed run{.unit = "noise", .before = before, .floor = 1, .after = after};
     run.closed = (before - after) / (before - 1);
-    sim::diagnosis::Diagnosis d;
-    d.verdict = sim::diagnosis::Verdict::supported;
-    return launch::gap::free_run_warning(d, run);
+    sim::diagnosis::Diagnosis diagnosis;
+    diagnosis.verdict = sim::diagnosis::Verdict::supported;
+    return launch::gap::free_run_warning(diagnosis, run);
   };
   CHECK_THAT(warning(3.14, 3.05), Catch::Contains("error is 3.14 times") &&
                                       Catch::Contains("with the identified effects 3.05 times"));
@@ -61,44 +61,46 @@ TEST_CASE(
     "warnings about an answer: a stage that it opens, a scaled time column, a delayed column") {
   using sim::effects::Stage;
   const erp::Robot robot = hinge_rig();
-  sim::diagnosis::Diagnosis d;
-  d.verdict = sim::diagnosis::Verdict::supported;
-  d.stages = {{Stage::motor, "flexor"}, {Stage::gearbox, "flexor"}};
-  d.stages[0].judged = d.stages[1].judged = d.stages[0].open = true;
-  const auto warnings = [&] { return launch::gap::answer_warnings(d, {}, robot); };
-  d.unexplained = {{Stage::motor, "flexor", 8}};
+  sim::diagnosis::Diagnosis diagnosis;
+  diagnosis.verdict = sim::diagnosis::Verdict::supported;
+  diagnosis.stages = {{Stage::motor, "flexor"}, {Stage::gearbox, "flexor"}};
+  diagnosis.stages[0].judged = diagnosis.stages[1].judged = diagnosis.stages[0].open = true;
+  const auto warnings = [&] { return launch::gap::answer_warnings(diagnosis, {}, robot); };
+  diagnosis.unexplained = {{Stage::motor, "flexor", 8}};
   CHECK(warnings().empty());
-  d.unexplained = {{Stage::gearbox, "flexor", 8}};
+  diagnosis.unexplained = {{Stage::gearbox, "flexor", 8}};
   REQUIRE(warnings().size() == 1);
   CHECK_THAT(warnings()[0], Catch::Contains("opens a gap at the gearbox of flexor"));
-  d.unexplained.clear();
-  const auto named = [](const char* type, const char* on, double value) {
-    sim::diagnosis::IdentifiedEffect n{type, on};
-    n.values = {value};
-    return n;
+  diagnosis.unexplained.clear();
+  const auto identified_effect = [](const char* type, const char* on, double value) {
+    sim::diagnosis::IdentifiedEffect effect{type, on};
+    effect.values = {value};
+    return effect;
   };
-  d.answer = {named("motor_torque_constant", "flexor", 0.005),
-              named("motor_torque_constant", "extensor", 0.0051)};
+  diagnosis.answer = {identified_effect("motor_torque_constant", "flexor", 0.005),
+                      identified_effect("motor_torque_constant", "extensor", 0.0051)};
   REQUIRE(warnings().size() == 1);
-  const std::string time = warnings()[0];
-  CHECK_THAT(time, Catch::Contains("time_s running 0.51 % too fast"));
-  d.answer[1].values = {0.009};
+  const std::string time_warning = warnings()[0];
+  CHECK_THAT(time_warning, Catch::Contains("time_s running 0.51 % too fast"));
+  diagnosis.answer[1].values = {0.009};
   CHECK(warnings().empty());
-  CHECK_THAT(time, Catch::Contains("voltages recorded that much too high"));
-  d.answer = {named("sensor_joint_low_pass", "elbow", 0.01)};
+  CHECK_THAT(time_warning, Catch::Contains("voltages recorded that much too high"));
+  diagnosis.answer = {identified_effect("sensor_joint_low_pass", "elbow", 0.01)};
   REQUIRE(warnings().size() == 1);
   CHECK_THAT(warnings()[0], Catch::Contains("delayed by 10 ms"));
-  d.answer = {named("tendon_damping", "flexor", -12)};
+  diagnosis.answer = {identified_effect("tendon_damping", "flexor", -12)};
   CHECK(warnings().empty());
-  d.answer[0].alternatives = {named("sensor_tension_low_pass", "flexor", 0.002)};
+  diagnosis.answer[0].alternatives = {
+      identified_effect("sensor_tension_low_pass", "flexor", 0.002)};
   REQUIRE(warnings().size() == 1);
   CHECK_THAT(warnings()[0],
              Catch::Contains("a column of flexor that is some ms behind the others"));
-  d.answer.clear();
+  diagnosis.answer.clear();
   for (const char* on : {"flexor", "extensor"}) {
-    sim::diagnosis::ConstantEstimate c{"torque_Nm_per_A", on, Stage::motor, 0.0115, 0.05, 0.01035};
-    c.interval = {0.0103, 0.0104};
-    d.constants.push_back(c);
+    sim::diagnosis::ConstantEstimate estimate{
+        "torque_Nm_per_A", on, Stage::motor, 0.0115, 0.05, 0.01035};
+    estimate.interval = {0.0103, 0.0104};
+    diagnosis.constants.push_back(estimate);
   }
   REQUIRE(warnings().size() == 1);
   CHECK_THAT(warnings()[0], Catch::Contains("time_s running 10 % too slowly") &&

@@ -17,7 +17,8 @@ struct Planned {
   std::string text;
 };
 
-/// The plan for a diagnosis with the equivalent effects `one` and `other` and the identified effect `identified`.
+/// The plan for a diagnosis with the equivalent effects `one` and `other`. `identified` is a
+/// further effect of the diagnosis.
 Planned plan(const fs::path& folder, const std::string& one, const std::string& other,
              const std::string& identified = "",
              const std::string& robot = rigs::config("hinge_rig/robot.xml")) {
@@ -86,7 +87,7 @@ TEST_CASE("identified effects are part of the robot that simulates the candidate
   const Planned with_resistance =
       plan(folder.path, coulomb, viscous, effect("motor_resistance", "relative", 0.3));
   REQUIRE(with_resistance.code == 0);
-  CHECK_THAT(with_resistance.text, !Catch::Contains("motor_resistance"));  // not a suspect
+  CHECK_THAT(with_resistance.text, !Catch::Contains("motor_resistance"));  // not a candidate
   CHECK(with_resistance.text != alone.text);                               // but it acts
 }
 
@@ -101,10 +102,10 @@ TEST_CASE("a plan with the corrected robot.xml equals the plan with the diagnose
   fs::create_directories(folder.path);
   const auto file = (folder.path / "robot.xml").string();
   std::ofstream(file) << erp::write_robot(corrected);
-  const Planned described = plan(folder.path, coulomb, viscous, resistance);
-  const Planned found = plan(folder.path, coulomb, viscous, resistance, file);
-  REQUIRE(described.code == 0);
-  CHECK(found.text == described.text);
+  const Planned with_diagnosed = plan(folder.path, coulomb, viscous, resistance);
+  const Planned with_corrected = plan(folder.path, coulomb, viscous, resistance, file);
+  REQUIRE(with_diagnosed.code == 0);
+  CHECK(with_corrected.text == with_diagnosed.text);
 }
 
 TEST_CASE(

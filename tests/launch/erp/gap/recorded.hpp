@@ -18,9 +18,9 @@ struct RecordedRig {
   RecordedRig() { std::filesystem::create_directories(path); }
   ~RecordedRig() { std::filesystem::remove_all(path); }
 
-  std::string found(const char* file) const { return path / "found" / file; }
+  std::string result(const char* file) const { return path / "found" / file; }
   std::string read(const char* file) const {
-    std::ifstream in(found(file));
+    std::ifstream in(result(file));
     return {std::istreambuf_iterator<char>(in), {}};
   }
   std::string recorded(const std::string& name, bool friction, std::uint64_t seed,
@@ -36,11 +36,11 @@ struct RecordedRig {
 };
 
 /// Multiplies a column of a recording by a factor.
-inline void scale_column(const std::string& file, const std::string& name, double by) {
+inline void scale_column(const std::string& file, const std::string& name, double factor) {
   recording::Table table = recording::read_table(file);
   for (auto& column : table.columns)
     if (column.name == name)
-      for (double& value : column.values) value *= by;
+      for (double& value : column.values) value *= factor;
   std::ofstream out(file);
   recording::write_csv(table, out);
 }

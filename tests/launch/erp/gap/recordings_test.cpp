@@ -8,11 +8,11 @@ namespace fs = std::filesystem;
 
 TEST_CASE("a recording of 0.12 s is reported as too short and does not change the diagnosis") {
   const RecordedRig folder;
-  const auto short_one = folder.recorded("short.csv", true, 3, 0.12);
+  const auto short_recording = folder.recorded("short.csv", true, 3, 0.12);
   std::ostringstream out, remarks;
   launch::gap::DiagnoseOptions options{.robot = rig_file};
   options.recordings = {folder.recorded("one.csv", true, 1), folder.recorded("two.csv", true, 2),
-                        short_one};
+                        short_recording};
   options.free_run = false, options.out = folder.path / "found";
   CHECK(launch::gap::diagnose(options, out, remarks) == 0);
   CHECK_THAT(out.str(), Catch::Contains("gearbox_coulomb on extensor"));
@@ -20,18 +20,18 @@ TEST_CASE("a recording of 0.12 s is reported as too short and does not change th
              Catch::Contains("short.csv: 0.12 s are too short to evaluate any stage"));
 
   const launch::gap::CalibrateOptions both{
-      .robot = rig_file, .out = "", .recordings = {options.recordings[0], short_one}};
+      .robot = rig_file, .out = "", .recordings = {options.recordings[0], short_recording}};
   CHECK(launch::gap::calibrate(both, out, remarks) == 0);
 }
 
 TEST_CASE("without a long enough recording, calibrate and confounders return 5") {
   const RecordedRig folder;
-  const auto short_one = folder.recorded("short.csv", true, 3, 0.12);
+  const auto short_recording = folder.recorded("short.csv", true, 3, 0.12);
   std::ostringstream out, remarks;
-  CHECK(launch::gap::calibrate({.robot = rig_file, .out = "", .recordings = {short_one}}, out,
+  CHECK(launch::gap::calibrate({.robot = rig_file, .out = "", .recordings = {short_recording}}, out,
                                remarks) == 5);
   launch::gap::IndistinguishableOptions options;
-  options.robot = rig_file, options.recordings = {short_one};
+  options.robot = rig_file, options.recordings = {short_recording};
   CHECK(launch::gap::list_indistinguishable(options, out, remarks) == 5);
   CHECK_THAT(out.str(), Catch::Contains("no stage could be evaluated") &&
                             !Catch::Contains("the sensors distinguish"));
@@ -50,7 +50,7 @@ TEST_CASE("a copy of a recording is rejected") {
             .episodes.size() == 2);
 }
 
-TEST_CASE("a tension column wrong by 10 % is located at the tendon, not reported as a late bus") {
+TEST_CASE("a tension column wrong by 10 % is located at the tendon, not reported as a bus delay") {
   const RecordedRig folder;
   const auto file = folder.recorded("one.csv", false, 1, 8);
   scale_column(file, "flexor.tension_N", 1.1);

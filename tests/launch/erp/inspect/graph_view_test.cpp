@@ -28,7 +28,7 @@ TEST_CASE("a writer without a name is shown as ?, missing readers as -") {
   CHECK_THAT(lines[2], Contains("mine") && Contains("?") && Contains("-"));
 }
 
-TEST_CASE("the DOT graph omits topics of every component, and has them with all") {
+TEST_CASE("the DOT graph omits topics of every component; the option all includes them") {
   const auto dot = launch::to_dot(rig, false);
   CHECK_THAT(dot, Contains("\"plant\" -> \"/sensor_frame\"") &&
                       Contains("\"/sensor_frame\" -> \"force_control\"") && !Contains("event") &&

@@ -1,4 +1,4 @@
-// erp help and the XSD: every attribute and element of robot and graph files has a meaning.
+// erp help and the XSD: every attribute and element of robot and graph files has a description.
 #include "launch/erp/inspect/reference.hpp"
 
 #include <catch2/catch.hpp>
@@ -6,19 +6,19 @@
 
 #include "interfaces/graph/graph.hpp"
 #include "interfaces/robot/robot.hpp"
-#include "tests/interfaces/xml/without_meaning.hpp"
+#include "tests/interfaces/xml/without_description.hpp"
 
-TEST_CASE("every element and attribute of robot.xml has a meaning") {
-  CHECK(without_meaning<erp::Robot>("robot") == std::vector<std::string>{});
+TEST_CASE("every element and attribute of robot.xml has a description") {
+  CHECK(without_description<erp::Robot>("robot") == std::vector<std::string>{});
 }
 
-TEST_CASE("every element and attribute of a graph has a meaning") {
-  CHECK(without_meaning<erp::Graph>("graph") == std::vector<std::string>{});
+TEST_CASE("every element and attribute of a graph has a description") {
+  CHECK(without_description<erp::Graph>("graph") == std::vector<std::string>{});
 }
 
 namespace {
 
-/// No component has a program here, except `brake`.
+/// Only the component `brake` has a program.
 std::optional<std::string> describe(const std::string& type) {
   if (type != "brake") return std::nullopt;
   return "force_N  number  N  default 3  Force of the brake.\n";
@@ -32,7 +32,7 @@ std::string reference(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("erp help robot prints type, range, unit, default and meaning") {
+TEST_CASE("erp help robot prints type, range, unit, default and description") {
   CHECK_THAT(reference("robot"), Catch::Contains("resistance_ohm") &&
                                      Catch::Contains("number > 0") && Catch::Contains("  ohm  ") &&
                                      Catch::Contains("required") && Catch::Contains("default"));

@@ -38,7 +38,8 @@ TEST_CASE("a message has one line per field, and its samples are a list") {
 }
 
 TEST_CASE(
-    "an enumeration value of an erp message has its name as comment, of another package not") {
+    "an enumeration value of an erp message has its name as comment; that of another package has "
+    "none") {
   auto erp_type = structure({"mode", "valid", "unknown_field"});
   auto other_type = erp_type;
   erp_type.name = "erp/msg/ActuatorSample", other_type.name = "other/msg/ActuatorSample";

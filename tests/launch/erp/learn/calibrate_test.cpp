@@ -18,36 +18,36 @@ std::string text_of(const fs::path& file) {
   return {std::istreambuf_iterator(in), {}};
 }
 
-/// A folder with a recording of the arm at rest, for the results of a calibration.
-struct Fixture {
+/// A folder with a recording of the arm at rest. The calibration writes its results into it.
+struct CalibrationFolder {
   fs::path path = fs::temp_directory_path() / "erp_calibrate_test";
   std::ostringstream out, remarks;
 
-  Fixture() {
+  CalibrationFolder() {
     fs::remove_all(path);
     fs::create_directories(path);
     const auto arm = arm_poses::arm();
     std::ofstream csv(path / "still.csv");
     recording::write_csv(arm_poses::recorded(arm, arm_poses::held_poses(arm, 8)), csv);
   }
-  ~Fixture() { fs::remove_all(path); }
+  ~CalibrationFolder() { fs::remove_all(path); }
 
   std::string file(const char* name) const { return (path / name).string(); }
   launch::PoseFiles poses() const { return {{file("still.csv")}, {}}; }
   void perturb() {
     launch::calibrate_perturb({.robot = rigs::config("arm/robot.xml"),
                                .choice = rigs::config("arm/calibration.xml"),
-                               .out = file("off.xml"),
+                               .out = file("perturbed.xml"),
                                .poses = poses(),
-                               .off_deg = {{"shoulder", 20}, {"elbow", 15}},
+                               .pose_errors_deg = {{"shoulder", 20}, {"elbow", 15}},
                                .seed = 2},
                               out);
   }
   launch::CalibrateOptions options(const char* folder, int rounds) const {
-    return {.robot = file("off.xml"),
+    return {.robot = file("perturbed.xml"),
             .choice = rigs::config("arm/calibration.xml"),
             .poses = poses(),
-            .how = {},
+            .fit = {},
             .training = {.folder = file(folder), .rounds = rounds}};
   }
 };
@@ -56,11 +56,11 @@ struct Fixture {
 
 TEST_CASE(
     "calibration reduces the error of a perturbed model below a tenth, and writes a valid robot") {
-  Fixture fixture;
+  CalibrationFolder fixture;
   fixture.perturb();
   CHECK_THAT(fixture.out.str(), Catch::Contains("perturbed"));
   auto options = fixture.options("found", 40);
-  options.how.strategy = sim::calibration::Strategy::newton;
+  options.fit.strategy = sim::calibration::Strategy::newton;
   REQUIRE(launch::calibrate_run(options, fixture.out, fixture.remarks) == 0);
   CHECK_THAT(fixture.out.str(),
              Catch::Contains("identified") && Catch::Contains("shoulder, checked"));
@@ -76,14 +76,15 @@ TEST_CASE(
                                          recording::read_table(poses.learn.front()), arm))
         .mean_of_all_rad;
   };
-  CHECK(errors(fixture.file("found/robot.xml")) < 0.1 * errors(fixture.file("off.xml")));
+  CHECK(errors(fixture.file("found/robot.xml")) < 0.1 * errors(fixture.file("perturbed.xml")));
 }
 
 TEST_CASE("an interrupted calibration prints how to continue, and resumes to the same robot") {
-  Fixture fixture;
+  CalibrationFolder fixture;
   fixture.perturb();
-  REQUIRE(launch::calibrate_run(fixture.options("whole", 3), fixture.out, fixture.remarks) == 0);
-  auto options = fixture.options("parts", 3);
+  REQUIRE(launch::calibrate_run(fixture.options("uninterrupted", 3), fixture.out,
+                                fixture.remarks) == 0);
+  auto options = fixture.options("resumed", 3);
   options.training.interrupted = [] { return true; };
   CHECK(launch::calibrate_run(options, fixture.out, fixture.remarks) == 1);
   CHECK_THAT(fixture.remarks.str(),
@@ -92,19 +93,20 @@ TEST_CASE("an interrupted calibration prints how to continue, and resumes to the
   options.training.resume = true;
   CHECK(launch::calibrate_run(options, fixture.out, fixture.remarks) == 0);
   for (const char* file : {"robot.xml", "curve.csv", "state.xml"})
-    CHECK(text_of(fixture.path / "parts" / file) == text_of(fixture.path / "whole" / file));
+    CHECK(text_of(fixture.path / "resumed" / file) ==
+          text_of(fixture.path / "uninterrupted" / file));
 }
 
-TEST_CASE("two processes under mpirun give the result of one") {
-  Fixture fixture;
+TEST_CASE("two processes under mpirun give the same result as one process") {
+  CalibrationFolder fixture;
   fixture.perturb();
   REQUIRE(launch::calibrate_run(fixture.options("one", 3), fixture.out, fixture.remarks) == 0);
   const std::string run =
       "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 timeout 60 mpirun --oversubscribe "
       "-n 2 " ERP_BIN_DIR "/erp calibrate run --robot " +
-      fixture.file("off.xml") + " --vary " + rigs::config("arm/calibration.xml") + " --real " +
-      fixture.file("still.csv") + " --generations 3 --threads 1 --out " + fixture.file("two") +
-      " > " + fixture.file("output") + " 2>&1";
+      fixture.file("perturbed.xml") + " --vary " + rigs::config("arm/calibration.xml") +
+      " --real " + fixture.file("still.csv") + " --generations 3 --threads 1 --out " +
+      fixture.file("two") + " > " + fixture.file("output") + " 2>&1";
   const int code = std::system(run.c_str());
   INFO(text_of(fixture.path / "output"));
   REQUIRE(code == 0);
@@ -115,13 +117,13 @@ TEST_CASE("two processes under mpirun give the result of one") {
         output.rfind("identified: "));  // only the first process prints
 }
 
-TEST_CASE("an unknown joint and a recording without rest are refused by name") {
-  Fixture fixture;
+TEST_CASE("an unknown joint and a recording without rest are rejected by name") {
+  CalibrationFolder fixture;
   CHECK_THROWS_WITH(launch::calibrate_perturb({.robot = rigs::config("arm/robot.xml"),
                                                .choice = rigs::config("arm/calibration.xml"),
-                                               .out = fixture.file("off.xml"),
+                                               .out = fixture.file("perturbed.xml"),
                                                .poses = fixture.poses(),
-                                               .off_deg = {{"knee", 20}}},
+                                               .pose_errors_deg = {{"knee", 20}}},
                                               fixture.out),
                     Catch::Contains("no joint \"knee\""));
   auto moving = recording::read_table(fixture.file("still.csv"));

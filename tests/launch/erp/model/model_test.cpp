@@ -50,21 +50,21 @@ TEST_CASE("an unknown file name extension is rejected with the known ones") {
 }
 
 TEST_CASE("balance prints pretensions that robot.xml can include") {
-  std::ostringstream part;
-  CHECK(launch::model_balance(arm, 5, 10, part) == 0);
+  std::ostringstream pretensions;
+  CHECK(launch::model_balance(arm, 5, 10, pretensions) == 0);
   const fs::path folder = fs::temp_directory_path() / ("erp_model_" + std::to_string(getpid()));
   fs::create_directories(folder);
-  std::ofstream(folder / "pretension.xml") << part.str();
+  std::ofstream(folder / "pretension.xml") << pretensions.str();
   std::ofstream(folder / "robot.xml") << "<robot name=\"arm\"><include file=\"" << arm
                                       << "\"/><include file=\"pretension.xml\"/></robot>";
-  const erp::Robot was = erp::read_robot(arm), now = erp::read_robot(folder / "robot.xml");
-  for (std::size_t k = 0; k < was.actuators.size(); ++k) {
-    CAPTURE(was.actuators[k].name);
-    // the arm has pretensions of the same computation, rounded
-    CHECK(now.actuators[k].tendon.pretension_N ==
-          Approx(was.actuators[k].tendon.pretension_N).margin(0.06));
+  const erp::Robot before = erp::read_robot(arm), balanced = erp::read_robot(folder / "robot.xml");
+  for (std::size_t k = 0; k < before.actuators.size(); ++k) {
+    CAPTURE(before.actuators[k].name);
+    // the arm's pretensions are rounded results of the same computation
+    CHECK(balanced.actuators[k].tendon.pretension_N ==
+          Approx(before.actuators[k].tendon.pretension_N).margin(0.06));
   }
-  CHECK(now.pretensions.empty());
+  CHECK(balanced.pretensions.empty());
   fs::remove_all(folder);
 }
 

@@ -27,12 +27,12 @@ std::string text_of(const fs::path& file) {
 struct Graph {
   fs::path folder;
 
-  explicit Graph(const std::string& lines = R"(<component name="worker"/>)") {
+  explicit Graph(const std::string& components = R"(<component name="worker"/>)") {
     std::string name = (fs::temp_directory_path() / "erp_graph_XXXXXX").string();
     folder = mkdtemp(name.data());
     std::ofstream(folder / "robot.xml") << R"(<robot name="tester"/>)";
     std::ofstream(folder / "graph.xml")
-        << R"(<graph name="testing" robot="robot.xml">)" << lines << "</graph>";
+        << R"(<graph name="testing" robot="robot.xml">)" << components << "</graph>";
     setenv("ERP_COMPONENT_PATH", ERP_TEST_COMPONENTS, 1);
     setenv("ERP_DOMAIN", std::to_string(100 + getpid() % 100).c_str(), 1);
   }
@@ -59,7 +59,7 @@ struct Graph {
     const auto count = [&] {
       const auto text = screen();
       std::size_t n = 0;
-      for (auto at = text.find(line); at != text.npos; at = text.find(line, at + 1)) ++n;
+      for (auto k = text.find(line); k != text.npos; k = text.find(line, k + 1)) ++n;
       return n;
     };
     while (count() < times) usleep(2000);
@@ -85,7 +85,7 @@ struct Graph {
   }
 };
 
-std::size_t at(const std::string& text, const std::string& part) {
+std::size_t position_in(const std::string& text, const std::string& part) {
   INFO(text);
   INFO(part);
   REQUIRE(text.find(part) != text.npos);
@@ -94,7 +94,7 @@ std::size_t at(const std::string& text, const std::string& part) {
 
 /// The time stamp of the line `[stamp] [info] active: …` in the log of a component.
 std::string time_of_activation(const std::string& log) {
-  const auto line = log.rfind('\n', at(log, "] active:")) + 1;
+  const auto line = log.rfind('\n', position_in(log, "] active:")) + 1;
   return log.substr(line, log.find(']', line) - line);
 }
 
@@ -103,16 +103,18 @@ std::string time_of_activation(const std::string& log) {
 TEST_CASE("a graph activates its components in order, runs for --for, and leaves no process") {
   const Graph graph(R"(<component name="worker"/><component name="logger"/>)");
   CHECK(graph.run({"--lockstep", "--for", "300ms"}) == 0);
-  std::string before;
+  std::string previous_time;
   for (const char* name : {"logger", "plant", "worker", "sim"}) {
     const auto time =
         time_of_activation(text_of(graph.folder / "run" / (name + std::string(".log"))));
-    CHECK(before <= time);
-    before = time;
+    CHECK(previous_time <= time);
+    previous_time = time;
   }
   const auto screen = graph.screen();
-  CHECK(at(screen, "all components are ready") < at(screen, "all components are active"));
-  CHECK(at(screen, "all components are active") < at(screen, "the end of the run"));
+  CHECK(position_in(screen, "all components are ready") <
+        position_in(screen, "all components are active"));
+  CHECK(position_in(screen, "all components are active") <
+        position_in(screen, "the end of the run"));
   CHECK_THAT(screen, Contains("exit code 0"));
   CHECK(graph.processes().empty());
   for (const char* name : {"plant.log", "sim.log", "worker.log", "logger.log", "erp.log"})
@@ -126,7 +128,8 @@ TEST_CASE("in real time a run lasts for --for although its device was restarted"
   kill(graph.pid_of("sim"), SIGKILL);
   CHECK(Graph::wait_for(launcher) == 0);
   const auto screen = graph.screen();
-  CHECK(at(screen, "sim: killed by signal 9") < at(screen, "2.00 s are over; stopping"));
+  CHECK(position_in(screen, "sim: killed by signal 9") <
+        position_in(screen, "2.00 s are over; stopping"));
   CHECK(graph.processes().empty());
 }
 

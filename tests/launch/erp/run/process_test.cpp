@@ -58,7 +58,7 @@ std::string wait_for_line(const Folder& folder) {
 bool exists(pid_t pid) { return kill(pid, 0) == 0; }
 
 /// Waits until the process has ended or is a zombie of init.
-void wait_until_gone(pid_t pid) {
+void wait_until_ended(pid_t pid) {
   for (;;) {
     std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
     std::string text;
@@ -121,7 +121,7 @@ TEST_CASE("destroying a Process kills the program and its children") {
     child = std::stoi(wait_for_line(folder));
   }
   CHECK_FALSE(exists(parent));
-  wait_until_gone(child);
+  wait_until_ended(child);
 }
 
 TEST_CASE("children of a process are killed when it ends") {
@@ -129,7 +129,7 @@ TEST_CASE("children of a process are killed when it ends") {
   auto process = shell("sleep 1000 & echo $!", folder);
   const pid_t child = std::stoi(wait_for_line(folder));
   CHECK(wait_for(process).clean());
-  wait_until_gone(child);
+  wait_until_ended(child);
 }
 
 TEST_CASE("a process inherits no descriptor except its log, even one opened without O_CLOEXEC") {
@@ -142,10 +142,10 @@ TEST_CASE("a process inherits no descriptor except its log, even one opened with
 }
 
 TEST_CASE("a process receives signals that the launcher blocks") {
-  sigset_t set, before;
-  sigemptyset(&set);
-  sigaddset(&set, SIGTERM);
-  pthread_sigmask(SIG_BLOCK, &set, &before);
+  sigset_t blocked, before;
+  sigemptyset(&blocked);
+  sigaddset(&blocked, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &blocked, &before);
   Folder folder;
   auto process = shell("exec sleep 1000", folder);
   process.send(SIGTERM);
@@ -163,7 +163,7 @@ TEST_CASE("a process does not survive a killed launcher") {
   const pid_t child = std::stoi(wait_for_line(folder));
   kill(launcher, SIGKILL);
   waitpid(launcher, nullptr, 0);
-  wait_until_gone(child);
+  wait_until_ended(child);
 }
 
 TEST_CASE("a second process appends to the log") {

@@ -14,14 +14,14 @@ namespace {
 
 /// A temporary folder as current folder.
 struct TemporaryCurrentFolder {
-  fs::path before = fs::current_path(), path;
+  fs::path previous_path = fs::current_path(), path;
   TemporaryCurrentFolder() {
     std::string name = (fs::temp_directory_path() / "erp_folder_XXXXXX").string();
     path = mkdtemp(name.data());
     fs::current_path(path);
   }
   ~TemporaryCurrentFolder() {
-    fs::current_path(before);
+    fs::current_path(previous_path);
     fs::remove_all(path);
   }
 };

@@ -14,9 +14,9 @@ TEST_CASE("a run in real time is over when its duration has passed since activat
   time.running();
   CHECK(time.elapsed_s() == 4);
   CHECK(time.remaining_s() == 3);
-  CHECK_FALSE(time.over());
+  CHECK_FALSE(time.is_over());
   time.tick(17 * s);
-  CHECK(time.over());
+  CHECK(time.is_over());
 }
 
 TEST_CASE("the device time continues after a restart of the device") {
@@ -27,13 +27,13 @@ TEST_CASE("the device time continues after a restart of the device") {
 }
 
 TEST_CASE(
-    "in lockstep the real-time factor gives the remaining time, and real time does not end the "
-    "run") {
+    "in lockstep the remaining time follows from the real-time factor, and real time does not end "
+    "the run") {
   launch::RunTime time(10, true);
   time.start(0);
   time.running();
   time.on_device_clock(0, 4), time.on_device_clock(6 * s, 4);
   CHECK(time.remaining_s() == 1);
   time.tick(100 * s);
-  CHECK_FALSE(time.over());
+  CHECK_FALSE(time.is_over());
 }

@@ -44,7 +44,7 @@ TEST_CASE("without a terminal, changes are written as plain lines") {
         "    1.50  done\n");
 }
 
-TEST_CASE("on a terminal the last table and the lines printed after it stay") {
+TEST_CASE("on a terminal the last table and the lines printed after it remain") {
   int master = -1, slave = -1;
   REQUIRE(openpty(&master, &slave, nullptr, nullptr, nullptr) == 0);
   std::FILE* terminal = fdopen(slave, "w");

@@ -5,7 +5,7 @@
 
 #include "launch/erp/run/supervisor.hpp"
 
-/// Fixture of the supervisor tests: a graph without processes or clock.
+// Fixture of the supervisor tests: a graph without processes or clock.
 using erp::Lifecycle;
 using launch::Action;
 using launch::Ending;
@@ -49,14 +49,14 @@ struct Run {
     supervisor.on_exit(member, ending, now_ns);
     supervisor.tick(now_ns);
   }
-  void all(Lifecycle lifecycle) {
+  void heartbeat_of_all(Lifecycle lifecycle) {
     for (std::size_t i = 0; i < 3; ++i) heartbeat(i, lifecycle);
   }
-  /// Completes the start.
-  void get_running() {
-    all(Lifecycle::inactive);
+  /// Brings all members from spawned to active.
+  void complete_start() {
+    heartbeat_of_all(Lifecycle::inactive);
     wait(300 * ms);
-    all(Lifecycle::active);
+    heartbeat_of_all(Lifecycle::active);
     wait(1 * ms);
     actions();
     REQUIRE(supervisor.stage() == Stage::running);

@@ -4,7 +4,7 @@
 
 TEST_CASE("when the device exits with 0 the run stops in reverse order") {
   Run run;
-  run.get_running();
+  run.complete_start();
   run.end(2);
   CHECK(run.actions() == Strings{"terminate plant"});
   run.wait(10 * ms);
@@ -18,7 +18,7 @@ TEST_CASE("when the device exits with 0 the run stops in reverse order") {
 
 TEST_CASE("a stop terminates the device first and waits for each member") {
   Run run;
-  run.get_running();
+  run.complete_start();
   run.supervisor.stop("interrupted", 0, run.now_ns);
   CHECK(run.actions() == Strings{"terminate sim"});
   run.end(2, {0, SIGTERM});
@@ -33,7 +33,7 @@ TEST_CASE(
     "a stop continues when a component reports finalized, and is done when all processes have "
     "ended") {
   Run run;
-  run.get_running();
+  run.complete_start();
   run.supervisor.stop("interrupted", 0, run.now_ns);
   CHECK(run.actions() == Strings{"terminate sim"});
   run.heartbeat(2, Lifecycle::finalized);
@@ -51,7 +51,7 @@ TEST_CASE(
 
 TEST_CASE("a component that does not end after finalized is killed") {
   Run run;
-  run.get_running();
+  run.complete_start();
   run.supervisor.stop("interrupted", 0, run.now_ns);
   run.heartbeat(2, Lifecycle::finalized);
   run.actions();
@@ -61,7 +61,7 @@ TEST_CASE("a component that does not end after finalized is killed") {
 
 TEST_CASE("a component that does not stop within 5 s is killed, and the exit code is 1") {
   Run run;
-  run.get_running();
+  run.complete_start();
   run.supervisor.stop("interrupted", 0, run.now_ns);
   run.wait(4900 * ms);
   CHECK(run.actions() == Strings{"terminate sim"});
@@ -75,7 +75,7 @@ TEST_CASE("a component that does not stop within 5 s is killed, and the exit cod
 
 TEST_CASE("kill_now kills all processes at once") {
   Run run;
-  run.get_running();
+  run.complete_start();
   run.supervisor.stop("interrupted", 0, run.now_ns);
   run.actions();
   run.supervisor.kill_now();
@@ -87,7 +87,7 @@ TEST_CASE("kill_now kills all processes at once") {
 
 TEST_CASE("a stop cancels the pending restart of a component") {
   Run run;
-  run.get_running();
+  run.complete_start();
   run.end(2, {1, 0});
   run.supervisor.stop("interrupted", 0, run.now_ns);
   run.wait(10 * s);

@@ -10,7 +10,7 @@ TEST_CASE("all processes are spawned at once") {
 TEST_CASE("components are activated in order, each when the one before is active") {
   Run run;
   run.actions();
-  run.all(Lifecycle::inactive);
+  run.heartbeat_of_all(Lifecycle::inactive);
   run.wait(250 * ms);
   CHECK(run.actions() == Strings{"activate logger"});
   run.wait(10 * ms);
@@ -30,7 +30,7 @@ TEST_CASE("components are activated in order, each when the one before is active
 TEST_CASE("no component is activated while one has not discovered every other process") {
   Run run;
   run.actions();
-  run.all(Lifecycle::inactive);
+  run.heartbeat_of_all(Lifecycle::inactive);
   run.heartbeat(1, Lifecycle::inactive, 2);
   run.wait(5 * s);
   CHECK(run.actions().empty());
@@ -42,7 +42,7 @@ TEST_CASE("no component is activated while one has not discovered every other pr
 TEST_CASE("no component is activated while links change") {
   Run run;
   run.actions();
-  run.all(Lifecycle::inactive);
+  run.heartbeat_of_all(Lifecycle::inactive);
   run.wait(150 * ms);
   run.heartbeat(2, Lifecycle::inactive, 3, 5);
   run.wait(150 * ms);
@@ -55,7 +55,7 @@ TEST_CASE("no component is activated while links change") {
 TEST_CASE("an activation without effect is sent again after 200 ms") {
   Run run;
   run.actions();
-  run.all(Lifecycle::inactive);
+  run.heartbeat_of_all(Lifecycle::inactive);
   run.wait(250 * ms);
   CHECK(run.actions() == Strings{"activate logger"});
   run.wait(200 * ms);
@@ -76,7 +76,7 @@ TEST_CASE("a start that exceeds its time limit stops and names the missing compo
 
 TEST_CASE("a killed component is restarted after the back-off and activated when ready") {
   Run run;
-  run.get_running();
+  run.complete_start();
   run.end(1, {0, SIGKILL});
   run.wait(90 * ms);
   CHECK(run.actions().empty());
@@ -95,7 +95,7 @@ TEST_CASE("a killed component is restarted after the back-off and activated when
 TEST_CASE(
     "the back-off doubles up to its maximum, and the sixth failure in the window ends the run") {
   Run run;
-  run.get_running();
+  run.complete_start();
   for (const std::int64_t delay_ns : {100 * ms, 200 * ms, 400 * ms, 800 * ms, 1600 * ms}) {
     run.end(1, {1, 0});
     run.wait(delay_ns - 1);
@@ -111,7 +111,7 @@ TEST_CASE(
 
 TEST_CASE("failures further apart than the window do not end the run") {
   Run run;
-  run.get_running();
+  run.complete_start();
   for (int i = 0; i < 20; ++i) {
     run.end(1, {1, 0});
     run.wait(100 * ms);
@@ -123,13 +123,13 @@ TEST_CASE("failures further apart than the window do not end the run") {
 
 TEST_CASE("with restart=never a failure ends the run, exit code 0 does not") {
   Run failing(erp::Restart::never);
-  failing.get_running();
+  failing.complete_start();
   failing.end(1, {1, 0});
   CHECK(failing.supervisor.stage() == Stage::stopping);
   CHECK(failing.supervisor.exit_code() == 1);
 
   Run ending(erp::Restart::never);
-  ending.get_running();
+  ending.complete_start();
   ending.end(1);
   CHECK(ending.supervisor.stage() == Stage::running);
   CHECK(ending.supervisor.phase(1) == Phase::ended);
@@ -137,7 +137,7 @@ TEST_CASE("with restart=never a failure ends the run, exit code 0 does not") {
 
 TEST_CASE("with restart=always a component is restarted after exit code 0") {
   Run run(erp::Restart::always);
-  run.get_running();
+  run.complete_start();
   run.end(1);
   CHECK(run.supervisor.phase(1) == Phase::backing_off);
 }

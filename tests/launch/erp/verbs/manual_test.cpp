@@ -1,4 +1,4 @@
-// What erp explains about itself: erp help, the manual page, the completion of bash.
+// The help of erp: erp help, the manual page, the completion of bash.
 #include <catch2/catch.hpp>
 #include <regex>
 
@@ -32,8 +32,8 @@ std::vector<std::string> all_verbs() {
   return all;
 }
 
-/// What bash offers for a command line; the last word is the one under the cursor.
-std::string offers(const std::string& words) {
+/// The completions of bash for a command line whose last word is at the cursor.
+std::string completions(const std::string& words) {
   return run("bash -c 'source <(erp help --completion bash) && complete -p erp >/dev/null && "
              "COMP_WORDS=(" +
              words +
@@ -43,7 +43,9 @@ std::string offers(const std::string& words) {
 
 }  // namespace
 
-TEST_CASE("erp help lists formats and components, and explains a component with its meanings") {
+TEST_CASE(
+    "erp help lists formats and components, and explains a component with the description of each "
+    "parameter") {
   const auto list = run("erp help");
   CHECK(list.exit_code == 0);
   CHECK_THAT(list.output, Contains("graph robot") && Contains("gap_monitor"));
@@ -84,9 +86,9 @@ TEST_CASE("the manual page has every verb, and groff formats it without a warnin
 }
 
 TEST_CASE("bash completes verbs, verbs of a family, and the options of a verb") {
-  CHECK_THAT(offers("erp la"), Contains(" launch "));
-  CHECK_THAT(offers("erp log \"\""), Contains(" info ") && Contains(" effort "));
-  CHECK_THAT(offers("erp log export --to"), Contains(" --topic "));
-  CHECK_THAT(offers("erp gap diagnose --held-out a.mcap --w"), Contains(" --withhold "));
-  CHECK_THAT(offers("erp launch confi"), Contains("  "));  // files: left to bash
+  CHECK_THAT(completions("erp la"), Contains(" launch "));
+  CHECK_THAT(completions("erp log \"\""), Contains(" info ") && Contains(" effort "));
+  CHECK_THAT(completions("erp log export --to"), Contains(" --topic "));
+  CHECK_THAT(completions("erp gap diagnose --held-out a.mcap --w"), Contains(" --withhold "));
+  CHECK_THAT(completions("erp launch confi"), Contains("  "));  // bash completes files
 }

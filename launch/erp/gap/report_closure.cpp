@@ -13,10 +13,12 @@ using xml::escaped;
 
 namespace {
 
-/// Gap closure of a channel; text where a percentage has no meaning.
+/// Gap closure of a channel in percent; without a gap, a text.
 std::string closed_of(const Closed& c, bool with_interval) {
+  constexpr double new_gap_factor = 1.5;  // chosen
   if (!c.has_gap())
-    return c.after > 1.5 * std::max(c.before, c.floor) ? "no gap before, gap after" : "–";
+    return c.after > new_gap_factor * std::max(c.before, c.floor) ? "no gap before, gap after"
+                                                                  : "–";
   if (c.after > c.before) return fmt::format("{:.1f} times as large", c.after / c.before);
   return fmt::format("{:.1f} %{}", 100 * std::min(1.0, c.closed),  // the excess is noise
                      with_interval ? closure_interval(c) : "");

@@ -13,23 +13,26 @@ namespace launch::gap {
 using namespace sim::diagnosis;
 using xml::escaped;
 
-std::string page::name_of(const IdentifiedEffect& n) { return n.type + " on " + n.on; }
+std::string page::name_of(const IdentifiedEffect& effect) {
+  return effect.type + " on " + effect.on;
+}
 
 std::string page::ranking(const Diagnosis& d) {
   if (d.ranked.empty()) return "";
-  constexpr std::size_t most = 14;
+  constexpr std::size_t max_effects = 14;  // bars; chosen
   std::vector<svg::Bar> bars;
   std::vector<std::string> rows, columns;
   std::vector<std::vector<double>> cells;
   for (const StageGap& gap : d.stages)
     columns.push_back(fmt::format("{} {}", sim::effects::word(gap.stage), gap.on));
-  for (std::size_t k = 0; k < d.ranked.size() && k < most; ++k) {
-    const IdentifiedEffect& n = d.ranked[k];
-    bars.push_back({name_of(n), fmt::format("{:.1f} %", 100 * n.gain), n.gain, n.gain_interval.low,
-                    n.gain_interval.high, n.supported});
-    if (n.signature.empty() || columns.size() > 24) continue;
-    rows.push_back(name_of(n)), cells.push_back(n.signature);
-    cells.back().push_back(std::abs(n.likeness));
+  for (std::size_t k = 0; k < d.ranked.size() && k < max_effects; ++k) {
+    const IdentifiedEffect& effect = d.ranked[k];
+    bars.push_back({name_of(effect), fmt::format("{:.1f} %", 100 * effect.gain), effect.gain,
+                    effect.gain_interval.low, effect.gain_interval.high, effect.supported});
+    constexpr std::size_t max_columns = 24;  // width of the page
+    if (effect.signature.empty() || columns.size() > max_columns) continue;
+    rows.push_back(name_of(effect)), cells.push_back(effect.signature);
+    cells.back().push_back(std::abs(effect.likeness));
   }
   columns.push_back("similarity to the first");
   std::string html =
@@ -60,10 +63,10 @@ std::string row_of(const ConstantEstimate& c) {
 }
 
 template <class Shown>
-std::string table_of(const std::vector<ConstantEstimate>& constants, Shown shown) {
+std::string table_of(const std::vector<ConstantEstimate>& constants, Shown is_shown) {
   std::string rows;
   for (const ConstantEstimate& c : constants)
-    if (shown(c)) rows += row_of(c);
+    if (is_shown(c)) rows += row_of(c);
   if (rows.empty()) return "<p>None.</p>\n";
   return "<table><tr><th>on</th><th>constant</th><th>robot.xml</th><th>estimate</th><th>95 % "
          "interval</th><th></th></tr>\n" +

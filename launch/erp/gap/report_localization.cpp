@@ -13,12 +13,13 @@ using xml::escaped;
 
 namespace {
 
-/// Number of places with the same share as this one, including it. The sensors cannot distinguish them.
+/// Number of stages with the same share as this one, including it. The sensors cannot distinguish
+/// them.
 std::ptrdiff_t group_size(const Diagnosis& d, const Attribution& one) {
   return std::ranges::count_if(d.where, [&](const Attribution& p) { return p.share == one.share; });
 }
 
-/// The group of places with the largest share, if it has several.
+/// Names of the stages with the largest share, if there are several.
 std::string group_text(const Diagnosis& d) {
   std::string names;
   if (d.where.empty() || group_size(d, d.where[0]) < 2) return "";
@@ -30,8 +31,9 @@ std::string group_text(const Diagnosis& d) {
          names + ".</p>\n";
 }
 
-/// Conditions under which the residual is largest; once for places that cannot be distinguished.
-std::string when(const Diagnosis& d) {
+/// Conditions under which the residual is largest. Stages that cannot be distinguished share one
+/// sentence.
+std::string conditions(const Diagnosis& d) {
   std::string html;
   for (const Attribution& place : d.where) {
     if (place.when.empty()) continue;
@@ -47,7 +49,7 @@ std::string when(const Diagnosis& d) {
 
 }  // namespace
 
-/// The chain of stages of each actuator or joint that has a share of the gap.
+/// Drawing of the stages of each actuator or joint that has a share of the gap.
 std::string page::chains(const Diagnosis& d) {
   const std::vector<std::string> names{"bus",     "motor", "gearbox",  "spindle", "tendon",
                                        "routing", "joint", "skeleton", "sensor"};
@@ -55,18 +57,18 @@ std::string page::chains(const Diagnosis& d) {
   for (const Attribution& place : d.where)
     if (!std::ranges::count(places, place.on)) places.push_back(place.on);
   std::string html = "<h2>Location of the gap</h2>\n";
-  const std::vector<double> none(names.size(), 0.0);
+  const std::vector<double> zero_shares(names.size(), 0.0);
   const std::vector<std::string> no_notes(names.size(), "–");
   if (places.empty())
     html += svg::chain(d.not_evaluated.empty()
                            ? "the residual of every stage is within its noise"
                            : "the residual of every evaluated stage is within its noise",
-                       names, none, no_notes);
+                       names, zero_shares, no_notes);
   if (!d.not_evaluated.empty())
     html += fmt::format("<p class=\"note\">Not evaluated: {}.</p>\n",
                         escaped(fmt::format("{}", fmt::join(d.not_evaluated, ", "))));
   for (const std::string& on : places) {
-    auto shares = none;
+    auto shares = zero_shares;
     auto notes = no_notes;
     for (const Attribution& place : d.where) {
       if (place.on != on || !(place.share > 0)) continue;
@@ -78,7 +80,7 @@ std::string page::chains(const Diagnosis& d) {
     }
     html += svg::chain(on, names, shares, notes);
   }
-  return html + group_text(d) + when(d);
+  return html + group_text(d) + conditions(d);
 }
 
 std::string page::worst_windows(const Diagnosis& d) {
