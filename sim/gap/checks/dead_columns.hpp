@@ -15,10 +15,10 @@ struct DeadColumn {
   std::vector<Column> evidence;  ///< columns that change meanwhile
 };
 
-/// Whether every signal has one constant value, without any sensor noise: no recording of a robot.
+/// Returns whether every signal is constant, without any sensor noise. A recording of a robot is never constant.
 bool nothing_changes(const Episode& episode);
 
-/// Columns that are dead for at least two seconds, or in the whole recording.
+/// Returns the columns that are dead for at least two seconds, or in the whole recording.
 std::vector<DeadColumn> dead_columns(const Episode& episode, const erp::Robot& robot, Laws& laws);
 
 }  // namespace sim::checks
