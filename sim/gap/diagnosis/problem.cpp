@@ -3,18 +3,18 @@
 namespace sim::diagnosis {
 
 RankingOptions Problem::ranking_options(double from, double to) const {
-  RankingOptions which{.train = sets.train,
-                       .held_out = sets.held_out,
-                       .withhold = options.withhold,
-                       .threads = options.threads,
-                       .pool = options.pool,
-                       .seed = options.seed};
+  RankingOptions ranking{.train = sets.train,
+                         .held_out = sets.held_out,
+                         .withhold = options.withhold,
+                         .threads = options.threads,
+                         .pool = options.pool,
+                         .seed = options.seed};
   if (to > from)
-    which.progress = [this, from, to](std::size_t done, std::size_t of) {
+    ranking.progress = [this, from, to](std::size_t done, std::size_t of) {
       report_progress("effects",
                       from + (to - from) * static_cast<double>(done) / static_cast<double>(of));
     };
-  return which;
+  return ranking;
 }
 
 }  // namespace sim::diagnosis
