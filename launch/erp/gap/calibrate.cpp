@@ -19,10 +19,10 @@ void print_row(const estimation::AsBuilt& built, std::size_t k, std::ostream& ou
   const estimation::Constant& c = built.uncertain.constants[k];
   const double x = built.estimate.point.x[k], half = 1.96 * built.estimate.sigma(k);
   constexpr double limit = 3;  // tolerances, and standard errors; chosen
-  const bool beyond = std::ranges::count(built.beyond, k) > 0 ||
+  const bool beyond = std::ranges::count(built.beyond_tolerance, k) > 0 ||
                       (std::abs(x) > limit && std::abs(x) > limit * built.estimate.sigma(k));
   const char* remark = beyond ? "beyond its tolerance"
-                       : estimation::determined(built, k) < estimation::well_determined
+                       : estimation::determined(built, k) < estimation::determined_threshold
                            ? "not determined"
                            : "";
   out << fmt::format("{:<16} {:<28} {:>11.5g} {:>11.5g} {:>11.5g} … {:<11.5g} {}\n", c.on, c.name,

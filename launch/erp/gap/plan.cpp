@@ -104,8 +104,8 @@ void print(const closed_loop::Experiment& experiment, const erp::Robot& robot,
   for (std::size_t k = 0; k < std::min(shown, experiment.candidates.size()); ++k) {
     const auto& c = experiment.candidates[k];
     out << fmt::format("{:<12}{:<18} {:>6} {:>12.1f} {:>8.0f} %  {}\n", k ? "" : "candidates",
-                       sim::excitation_name(robot, c.kind), c.seed, c.least,
-                       100 * c.extremes.of_max_tension, c.unsafe);
+                       sim::excitation_name(robot, c.kind), c.seed, c.least_split,
+                       100 * c.extremes.tension_fraction, c.unsafe);
   }
   if (suspects.size() < 3) return;  // with two suspects the table shows it
   const auto& split = experiment.candidates.front().split;
@@ -140,7 +140,7 @@ closed_loop::Experiment search(const erp::Robot& robot, const std::vector<Placed
                                      .candidates = options.candidates,
                                      .threads = options.threads,
                                      .seed = options.seed,
-                                     .to_stop_rad = options.to_stop_rad};
+                                     .stop_distance_rad = options.to_stop_rad};
   how.progress = [&](double share) {
     const std::lock_guard lock(progress_mutex);
     progress.show("simulations", share);
@@ -224,7 +224,7 @@ int plan(const PlanOptions& options, std::ostream& out, std::ostream& remarks) {
     return 1;
   }
   const auto& best = experiment.candidates.front();
-  if (best.least < least_sigma) {
+  if (best.least_split < least_sigma) {
     out << (suspects.size() == 1
                 ? "no excitation distinguishes it from the robot without it; this needs another "
                   "sensor\n"
@@ -233,13 +233,13 @@ int plan(const PlanOptions& options, std::ostream& out, std::ostream& remarks) {
   }
   write_graph(options.out, options.robot, robot, experiment.chosen);
   out << fmt::format("chosen      largest tension {:.0f} % of the limit ({})",
-                     100 * best.extremes.of_max_tension, best.extremes.tightest);
-  if (!best.extremes.nearest.empty())
-    out << fmt::format(", smallest distance to a stop {:.3f} rad ({})", best.extremes.to_stop_rad,
-                       best.extremes.nearest);
-  if (!best.extremes.slowest.empty())
+                     100 * best.extremes.tension_fraction, best.extremes.tension_actuator);
+  if (!best.extremes.stop_joint.empty())
+    out << fmt::format(", smallest distance to a stop {:.3f} rad ({})",
+                       best.extremes.stop_distance_rad, best.extremes.stop_joint);
+  if (!best.extremes.saturated_actuator.empty())
     out << fmt::format(", full voltage for {:.0f} % of the time ({})",
-                       100 * best.extremes.saturated, best.extremes.slowest);
+                       100 * best.extremes.saturated_fraction, best.extremes.saturated_actuator);
   out << fmt::format(
       "\nnext        erp launch {}/graph.xml --for {:g}s        on the robot, add --device can\n",
       options.out, options.seconds);

@@ -14,7 +14,7 @@ using xml::escaped;
 namespace {
 
 /// Gap closure of a channel; text where a percentage has no meaning.
-std::string closed_of(const Closed& c, bool with_interval) {
+std::string closed_of(const ClosedGap& c, bool with_interval) {
   if (!c.has_gap())
     return c.after > 1.5 * std::max(c.before, c.floor) ? "no gap before, gap after" : "–";
   if (c.after > c.before) return fmt::format("{:.1f} times as large", c.after / c.before);
@@ -32,7 +32,7 @@ std::string page::stages(const Diagnosis& d) {
   std::string html =
       "<table><tr><th>stage</th><th>residual before</th><th>noise</th><th>residual after</th>"
       "<th>closed</th><th>share of the stage's input, before</th><th>after</th></tr>\n";
-  for (const Closed& c : d.channels)
+  for (const ClosedGap& c : d.channels)
     html += fmt::format(
         "<tr><td>{}</td><td>{:.3g} {}</td><td>{:.3g}</td><td>{:.3g}</td><td>{}</td>"
         "<td>{}</td><td>{}</td></tr>\n",
@@ -50,7 +50,7 @@ std::string page::free_run(const Diagnosis& d, const sim::closed_loop::FreeRun& 
       "<th>closed</th></tr>\n",
       validation_data(d), run.all.before, run.all.after, closure_text(run.all),
       closure_interval(run.all));
-  for (const Closed& c : run.channels)
+  for (const ClosedGap& c : run.channels)
     html += fmt::format(
         "<tr><td>{}</td><td>{:.3g} {}</td><td>{:.3g}</td><td>{:.3g}</td><td>{}</td></tr>\n",
         escaped(c.channel), c.before, c.unit, c.floor, c.after, closed_of(c, false));

@@ -29,7 +29,7 @@ std::string page::ranking(const Diagnosis& d) {
                     n.gain_interval.high, n.supported});
     if (n.signature.empty() || columns.size() > 24) continue;
     rows.push_back(name_of(n)), cells.push_back(n.signature);
-    cells.back().push_back(std::abs(n.likeness));
+    cells.back().push_back(std::abs(n.similarity));
   }
   columns.push_back("similarity to the first");
   std::string html =
@@ -50,9 +50,9 @@ std::string page::ranking(const Diagnosis& d) {
 namespace {
 
 std::string row_of(const ConstantEstimate& c) {
-  const char* remark = c.beyond                                          ? "beyond its tolerance"
-                       : c.determined < sim::estimation::well_determined ? "not determined"
-                                                                         : "";
+  const char* remark = c.beyond ? "beyond its tolerance"
+                       : c.determined < sim::estimation::determined_threshold ? "not determined"
+                                                                              : "";
   return fmt::format(
       "<tr><td>{}</td><td>{}</td><td>{:.4g}</td><td>{:.4g}</td><td>{:.4g} … "
       "{:.4g}</td><td>{}</td></tr>\n",

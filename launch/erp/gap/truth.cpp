@@ -54,7 +54,7 @@ std::optional<double> closed_by_truth(const std::string& folder,
   const auto rms = [](const diagnosis::ScoreBlock& b) {
     return std::sqrt(b.square / static_cast<double>(std::max<std::size_t>(1, b.windows)));
   };
-  const double before = rms(sum(evaluator.blocks(evaluator.bare(), all)));
+  const double before = rms(sum(evaluator.blocks(evaluator.nominal_evaluation(), all)));
   const double after = rms(sum(evaluator.blocks(evaluator.with(hidden, all), all)));
   return before > 1 ? (before - after) / (before - 1) : 0;
 }

@@ -34,15 +34,17 @@ struct Bus {
   std::vector<diagnosis::Ages> ages;
   bool present, evaluated, late;
   bool explained = false;  ///< an effect of the bus explains the ages
-  double voltage_late_s;   ///< row_timing.hpp
+  double voltage_delay_s;  ///< row_timing.hpp
 };
 
 Bus evaluate_bus(const erp::Robot& robot, const std::vector<residuals::Episode>& episodes) {
   Bus bus;
   for (const auto& e : episodes) bus.ages.push_back(diagnosis::command_ages(e, robot));
-  bus.present = robot.drives.empty(), bus.evaluated = bus.present && diagnosis::has_enough_ages(bus.ages);
-  bus.voltage_late_s = episodes.empty() ? 0 : episodes[0].voltage_late_s;
-  bus.late = bus.evaluated && diagnosis::late_share(bus.ages) > diagnosis::practical_late;
+  bus.present = robot.drives.empty(),
+  bus.evaluated = bus.present && diagnosis::has_enough_ages(bus.ages);
+  bus.voltage_delay_s = episodes.empty() ? 0 : episodes[0].voltage_delay_s;
+  bus.late = bus.evaluated &&
+             diagnosis::delayed_fraction(bus.ages) > diagnosis::negligible_delayed_fraction;
   const auto fits = diagnosis::fit_bus(bus.ages, bus.ages, robot, {});
   bus.explained = !fits.empty() && fits[0].supported;
   return bus;
@@ -67,13 +69,13 @@ bool print_summary(const erp::Robot& robot, const std::vector<diagnosis::StageGa
         "in {:.0f} % of the ticks with a new command the ECUs appear to have executed an older "
         "command, but no effect of the bus explains the ages; check the tension and shaft columns, "
         "whose errors look the same\n",
-        100 * diagnosis::late_share(bus.ages));
+        100 * diagnosis::delayed_fraction(bus.ages));
   else if (bus.late)
     out << fmt::format(
         "the bus is late: in {:.0f} % of the ticks with a new command the ECUs executed an older "
         "command, {:.3g} ms old on average\n",
-        100 * diagnosis::late_share(bus.ages), 1e3 * diagnosis::mean_age_s(bus.ages));
-  if (const double late_s = bus.voltage_late_s; late_s > 0)
+        100 * diagnosis::delayed_fraction(bus.ages), 1e3 * diagnosis::mean_age_s(bus.ages));
+  if (const double late_s = bus.voltage_delay_s; late_s > 0)
     out << fmt::format(
         "the bus is late: voltages act {:.3g} ms after their rows, or all sensors lag by that "
         "time\n",
