@@ -7,7 +7,8 @@
 namespace sim::blind {
 namespace {
 
-/// The tendon with changed radii of its pulleys. Guides on a changed pulley and a shifted attachment are moved.
+/// The tendon with changed radii of its pulleys. Guides on a changed pulley and a shifted
+/// attachment are moved.
 erp::Tendon changed_tendon(erp::Tendon tendon, const ChannelEffects& q, const erp::Robot& robot) {
   const auto scale_from = [](erp::Vec3& p, const erp::Vec3& from, double factor) {
     for (std::size_t i = 0; i < 3; ++i) p[i] = from[i] + factor * (p[i] - from[i]);

@@ -1,4 +1,5 @@
-// Motion of the bones of a blind robot: friction, springs and stops of its joints, H q̈ = τ − C − τ_G.
+// Motion of the bones of a blind robot: friction, springs and stops of its joints, H q̈ = τ − C −
+// τ_G.
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +18,8 @@ constexpr double max_deflection = 1.2;  // of a bristle with its damping; chosen
 constexpr double stop_Nm_per_rad = 300, stop_Nm_s_per_rad = 1;  // chosen: stiff against tendons
 constexpr double play_time_constant_s = 2e-4;  // at the ends of the play: twice the step
 
-/// Friction torque of a joint about one axis with velocity v; speed: of all axes; ds: rate of the bristle.
+/// Friction torque of a joint about one axis with velocity v; speed: of all axes; ds: rate of the
+/// bristle.
 double friction(const erp::Joint& joint, const JointEffects& q, double speed, double v,
                 double bristle, double& ds) {
   const double dry = std::max(0.0, joint.coulomb_Nm + q.dry_Nm) +

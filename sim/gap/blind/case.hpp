@@ -13,8 +13,8 @@ namespace sim::blind {
 
 enum class Kind { single, null, pair, outside, withheld, many };
 
-/// A hidden effect. `type`: name in the library of effects. The name of a law that the library lacks begins
-/// with "outside_". `on`: name of the actuator, joint, body or robot.
+/// A hidden effect. `type`: name in the library of effects. The name of a law that the library
+/// lacks begins with "outside_". `on`: name of the actuator, joint, body or robot.
 struct Hidden {
   std::string type, stage, on;
   std::vector<std::pair<std::string, double>> parameters;
@@ -30,9 +30,10 @@ struct Case {
   int rejected_draws = 0;             ///< number of draws rejected as invisible
 };
 
-/// `only`: types to draw from; empty: all. `is_visible`: whether a single effect is visible (visibility.hpp).
-/// Invisible effects are drawn again, at most fifty times in a case. Throws std::invalid_argument for a robot
-/// without actuators or revolute joints, and for a type that this kind does not hide.
+/// `only`: types to draw from; empty: all. `is_visible`: whether a single effect is visible
+/// (visibility.hpp). Invisible effects are drawn again, at most fifty times in a case. Throws
+/// std::invalid_argument for a robot without actuators or revolute joints, and for a type that this
+/// kind does not hide.
 Case draw_case(const erp::Robot& robot, Kind kind, std::uint64_t seed,
                const std::vector<std::string>& only = {},
                const std::function<bool(const HiddenEffects&)>& is_visible = {});

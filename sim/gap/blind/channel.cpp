@@ -1,5 +1,5 @@
-// One actuator channel of a blind plant: motor, gearbox, spindle, tendon. Symbols: gear ratio n, shaft speed ω,
-// output torque X of the gearbox, bristle deflection s.
+// One actuator channel of a blind plant: motor, gearbox, spindle, tendon. Symbols: gear ratio n,
+// shaft speed ω, output torque X of the gearbox, bristle deflection s.
 //   motor    L di/dt = u − R i − K_E n ω
 //   gearbox  (J n² + J_g/e) dω/dt = n (K_T i − friction) − X/e,  e = η^(s sgn X)
 //   spindle  stretch = path + wound length − rest length
@@ -15,7 +15,8 @@ namespace c = channel_state;
 
 namespace {
 
-// Travel and damping of the bristles; chosen: small against the motion, resolved by the integrator's step.
+// Travel and damping of the bristles; chosen: small against the motion, resolved by the
+// integrator's step.
 constexpr double shaft_travel_rad = 3e-4, shaft_damping_s = 2e-3, line_travel_m = 4e-5;
 constexpr double max_deflection = 1.2;        // of a bristle with its damping; chosen
 constexpr double line_damping_N_s_per_m = 5;  // at least; chosen: keeps the integration stable
@@ -31,7 +32,8 @@ double dead_zone(double x, double low, double high) {
   return x > high ? x - high : x < low ? x - low : 0;
 }
 
-/// Rate of the stress of a sliding element: a spring up to its yield force, with a smooth transition.
+/// Rate of the stress of a sliding element: a spring up to its yield force, with a smooth
+/// transition.
 double slide_rate(double stress, double rate, double stiffness, double yield) {
   const bool loading = stress * rate > 0;
   const double used_fraction = std::abs(stress) / yield;

@@ -26,8 +26,8 @@ struct EffectKind {
   enum On { channel, joint, body, link, robot } on;  ///< link: a body on a hinge
   /// Draws parameters, sets the hidden effect, returns names and values of the parameters.
   std::vector<std::pair<std::string, double>> (*draw)(Place&, Random&);
-  /// Types whose equations can predict nearly the same readings. A withheld case withholds these types too;
-  /// otherwise one of them would be a correct answer.
+  /// Types whose equations can predict nearly the same readings. A withheld case withholds these
+  /// types too; otherwise one of them would be a correct answer.
   std::vector<const char*> indistinguishable = {};
 };
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-/// Parameters of the hidden effects of a blind robot. Default values have no effect. Equations: channel.cpp,
-/// bones.cpp, record.cpp. "Outside": the library of effects lacks this law.
+/// Parameters of the hidden effects of a blind robot. Default values have no effect. Equations:
+/// channel.cpp, bones.cpp, record.cpp. "Outside": the library of effects lacks this law.
 namespace sim::blind {
 
 struct SensorEffects {

@@ -6,26 +6,29 @@
 #include "sim/gap/blind/hidden_effects.hpp"
 #include "sim/model/actuator/muscle_jacobian.hpp"
 
-/// The robot of a blind case in continuous time: ordinary differential equations, integrated by the classical
-/// Runge–Kutta method of order four at a small step. The equations differ from those of the simulator and of
-/// the library of effects. Otherwise the diagnosis would be tested with its own equations.
+/// The robot of a blind case in continuous time: ordinary differential equations, integrated by the
+/// classical Runge–Kutta method of order four at a small step. The equations differ from those of
+/// the simulator and of the library of effects. Otherwise the diagnosis would be tested with its
+/// own equations.
 ///
 /// - friction: one bristle of deflection s and travel δ per contact, ṡ = (ω − |ω| s)/δ,
 ///   torque τ_c(ω) (s + b ṡ)  (Dahl, LuGre)
-/// - gearbox of efficiency η with output torque X: input torque X/e, e = η^(s sgn X), continuous at standstill
+/// - gearbox of efficiency η with output torque X: input torque X/e, e = η^(s sgn X), continuous at
+///   standstill
 /// - backlash: two masses and a dead zone; shaft: two masses and a spring
 /// - hysteresis: three sliding elements (Iwan); creep: a Maxwell element
 /// - stops: springs and dampers
 ///
-/// Shared with the simulator: the nominal bones (sim/model/skeleton: H, C, τ_G) and the paths of the tendons.
+/// Shared with the simulator: the nominal bones (sim/model/skeleton: H, C, τ_G) and the paths of
+/// the tendons.
 namespace sim::blind {
 
 class Plant {
  public:
   Plant(const erp::Robot& nominal, const HiddenEffects& hidden_effects);
 
-  /// Advances by `duration_s` with constant voltages, one per actuator. `gust`: random torque of the joints
-  /// in standard deviations. Returns false if the motion is not finite.
+  /// Advances by `duration_s` with constant voltages, one per actuator. `gust`: random torque of
+  /// the joints in standard deviations. Returns false if the motion is not finite.
   bool run(std::span<const double> voltage_V, double duration_s, double gust);
 
   double time_s() const { return time_s_; }
@@ -51,8 +54,8 @@ class Plant {
     bool two_masses = false;      ///< motor and spindle are separate masses
     Eigen::VectorXd moment_arms;  ///< ∂L/∂q
   };
-  /// `path_slope`: actual over nominal change of the path's length. `wound_slope_m`: wound length per angle
-  /// of the spindle.
+  /// `path_slope`: actual over nominal change of the path's length. `wound_slope_m`: wound length
+  /// per angle of the spindle.
   struct Line {
     double tension_N, path_slope, motor_side_N, wound_slope_m;
   };
@@ -80,7 +83,8 @@ class Plant {
   Eigen::VectorXd bias_;
 };
 
-/// The robot with other masses, a tilted base and flexible bones: effects that robot.xml can express.
+/// The robot with other masses, a tilted base and flexible bones: effects that robot.xml can
+/// express.
 erp::Robot changed(const erp::Robot& nominal, const HiddenEffects& hidden_effects);
 
 }  // namespace sim::blind

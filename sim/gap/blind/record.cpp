@@ -38,8 +38,8 @@ class SensorModel {
   }
 
  private:
-  /// Angle at which the reading head sees the disc, relative to a centred disc. The centre of the disc circles the
-  /// axis; the head is at (1, 0).
+  /// Angle at which the reading head sees the disc, relative to a centred disc. The centre of the
+  /// disc circles the axis; the head is at (1, 0).
   double ray_rad(double angle) const {
     const double s = std::sin(angle), c = std::cos(angle);
     return std::atan2(q_.sine_rad * s + q_.cosine_rad * c, 1 - q_.sine_rad * c + q_.cosine_rad * s);

@@ -38,8 +38,8 @@ enum : std::size_t {
 };
 }
 
-/// Travel that deflects a bristle fully. It is longer at high speed: the deflection takes at least one step of
-/// the integrator.
+/// Travel that deflects a bristle fully. It is longer at high speed: the deflection takes at least
+/// one step of the integrator.
 inline double bristle_travel(double travel, double speed) {
   constexpr double min_duration_s = 1e-4;
   return std::fmax(travel, min_duration_s * std::abs(speed));

@@ -5,13 +5,13 @@
 
 namespace sim::blind {
 
-/// Whether a hidden effect is visible in any reading. Capstan friction on a straight line is invisible, for
-/// example, and a worn gear of a muscle with small forces.
+/// Whether a hidden effect is visible in any reading. Capstan friction on a straight line is
+/// invisible, for example, and a worn gear of a muscle with small forces.
 class Visibility {
  public:
   explicit Visibility(const erp::Robot& robot);
-  /// Returns whether the effects change at least one signal by more than its noise (rms) in one of two
-  /// excitations. Returns true if the motion diverges.
+  /// Returns whether the effects change at least one signal by more than its noise (rms) in one of
+  /// two excitations. Returns true if the motion diverges.
   bool operator()(const HiddenEffects& hidden_effects) const;
 
  private:

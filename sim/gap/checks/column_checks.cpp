@@ -34,8 +34,8 @@ double fraction_beyond(const Signal& signal, double limit) {
   return valid > 0 ? beyond / valid : 0;
 }
 
-/// Currents and tensions that are at the end of their range in more than 2 % of the rows. The zero tension of a
-/// slack tendon is not an end of the range.
+/// Currents and tensions that are at the end of their range in more than 2 % of the rows. The zero
+/// tension of a slack tendon is not an end of the range.
 std::vector<AtLimit> at_limit(const Episode& episode, const erp::Robot& robot) {
   std::vector<AtLimit> columns;
   const auto add_if_at_limit = [&](const Column& column, const Signal& signal, int counts,
@@ -153,7 +153,8 @@ std::string beyond_stops_message(const erp::Joint& joint, const Signal& angle) {
       joint.name, largest, joint.min_rad, joint.max_rad);
 }
 
-/// Whether a correction changes the column. A column in another unit is already reported when it exceeds its range.
+/// Whether a correction changes the column. A column in another unit is already reported when it
+/// exceeds its range.
 bool is_corrected(const std::vector<Alternatives>& all, const Column& column) {
   return std::ranges::any_of(all, [&](const Alternatives& alternatives) {
     return std::ranges::any_of(alternatives, [&](const Correction& m) {

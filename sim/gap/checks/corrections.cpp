@@ -126,8 +126,8 @@ class Vote {
       for (std::size_t j = i + 1; j < means_.joints.size(); ++j) pair(Quantity::angle, i, j);
   }
 
-  /// Tries the factors that would satisfy an impossible law. If no factor helps, reports the columns of the first
-  /// impossible law as contradicting.
+  /// Tries the factors that would satisfy an impossible law. If no factor helps, reports the
+  /// columns of the first impossible law as contradicting.
   void try_any_factor() {
     std::vector<Law> impossible;
     for (const auto& laws : before_)
@@ -140,8 +140,8 @@ class Vote {
       best_.push_back({Correction::Kind::contradicting, impossible[0].columns, 1, "", {}});
   }
 
-  /// A fast test before the evaluation: a wrong column takes part in a suspicious or inconclusive law. In an exchange,
-  /// a column of each side does.
+  /// A fast test before the evaluation: a wrong column takes part in a suspicious or inconclusive
+  /// law. In an exchange, a column of each side does.
   bool is_possible(const Correction& correction) const {
     const auto suspect = [&](const Column& c) {
       return !means_[c].empty() && std::ranges::count(suspects_, c) > 0;
@@ -168,8 +168,8 @@ class Vote {
     return all;
   }
 
-  /// Scores a correction. An exchange changes more columns and must therefore score at least 2. Any other correction
-  /// must repair at least one suspicious law; an inconclusive one is not enough.
+  /// Scores a correction. An exchange changes more columns and must therefore score at least 2. Any
+  /// other correction must repair at least one suspicious law; an inconclusive one is not enough.
   void consider(Correction correction) {
     if (!is_possible(correction)) return;
     const auto paths = moves_bones(correction) ? means_.paths : std::vector<residuals::PathTrace>{};
@@ -206,7 +206,8 @@ class Vote {
         correction.evidence.push_back(c);
   }
 
-  /// Keeps the corrections with the highest score; of two factors of one column, the one with the smaller deviation.
+  /// Keeps the corrections with the highest score; of two factors of one column, the one with the
+  /// smaller deviation.
   void keep(Correction correction, const Tally& tally) {
     if (tally.gain > gain_) best_.clear(), deviations_.clear();
     gain_ = tally.gain;

@@ -51,8 +51,8 @@ const Signal& signal_of(const Episode& e, const Column& c) {
   return *all[static_cast<std::size_t>(c.quantity)];
 }
 
-/// Finds the columns that imply, by the laws of these rows, that a constant column should change. No such column: it
-/// may be constant.
+/// Finds the columns that imply, by the laws of these rows, that a constant column should change.
+/// No such column: it may be constant.
 class ExpectedChange {
  public:
   ExpectedChange(const erp::Robot& robot, const Laws& laws, const Means& means,
@@ -91,7 +91,8 @@ class ExpectedChange {
       sum[k] = factor * sum[k] + speed_factor * back_emf * (speed.empty() ? 0 : speed[k]);
     return sum;
   }
-  /// The model of a drive has neither spring nor weight. Only the voltage or current can reverse its motion.
+  /// The model of a drive has neither spring nor weight. Only the voltage or current can reverse
+  /// its motion.
   std::vector<Column> of_control(std::size_t a) const {
     constexpr double fast_fraction = 0.2;  // of the largest speed; chosen
     const Signal& speed = means_.actuators[a].speed_rad_per_s;
@@ -120,7 +121,8 @@ class ExpectedChange {
       return {};
     return {{Quantity::voltage, a}, {Quantity::shaft, a}};
   }
-  /// If the shaft is at rest, the tendon is a spring between two measured ends, and the spring law holds.
+  /// If the shaft is at rest, the tendon is a spring between two measured ends, and the spring law
+  /// holds.
   std::vector<Column> of_shaft(std::size_t a) const {
     if (!spring_holds(a) && spread_of(means_.paths[a].length_m) > travel_m)
       return laws_.crossed_by(a);
@@ -130,7 +132,8 @@ class ExpectedChange {
       if (is_drive && spread_of(measured(control, a)) > 0) return {{control, a}};
     return {};
   }
-  /// The tension of a slack tendon may be constant: then neither the spring law nor the motor current implies a change.
+  /// The tension of a slack tendon may be constant: then neither the spring law nor the motor
+  /// current implies a change.
   std::vector<Column> of_tension(std::size_t a) const {
     const erp::SensorType& sensors = robot_.sensors_of(actuator(a));
     const double slack_N = range_fraction * sensors.tension_range_N,

@@ -18,7 +18,8 @@ constexpr double beyond_stretch = 2;         // smallest path variation / possib
 constexpr double largest_error = 1.0 / 3;    // relative, of a dimension of the tendon; chosen
 constexpr int fewest_samples = 30;           // of a fitted line; chosen
 
-/// Slope of y over x and their correlation, after a regression of both on a constant and on `regressor`.
+/// Slope of y over x and their correlation, after a regression of both on a constant and on
+/// `regressor`.
 Line fit_line(const Signal& x, const Signal& y, const Signal* regressor = nullptr) {
   std::vector<std::size_t> valid;
   for (std::size_t k = 0; k < std::min(x.size(), y.size()); ++k)
@@ -59,8 +60,8 @@ bool has_measured_stretch(const erp::Robot& robot, const erp::Actuator& actuator
   return !drive || (drive->find<erp::LoadEncoder>() && drive->stiffness_Nm_per_rad);
 }
 
-/// Whether the recording has no tension column. The whole load of such a drive acts at its gearbox shaft, and its
-/// tension is 0.
+/// Whether the recording has no tension column. The whole load of such a drive acts at its gearbox
+/// shaft, and its tension is 0.
 bool has_no_tension(const erp::Robot& robot, const erp::Actuator& actuator) {
   const erp::Drive* drive = residuals::drive_of(robot, actuator.name);
   return drive && !has_load_sensor(*drive);

@@ -5,8 +5,8 @@
 #include "sim/gap/residuals/column.hpp"
 #include "sim/gap/residuals/skeletal.hpp"
 
-/// A downsampled recording: means under a window (bump.hpp) at every eighth row. Corrections scale, exchange and
-/// remove its columns.
+/// A downsampled recording: means under a window (bump.hpp) at every eighth row. Corrections scale,
+/// exchange and remove its columns.
 namespace sim::checks {
 
 using residuals::Column, residuals::Episode, residuals::JointSignals, residuals::PathTrace,
@@ -25,7 +25,8 @@ struct Means {
 
   Signal& operator[](const Column& column);
   const Signal& operator[](const Column& column) const;
-  /// Multiplies a column by `factor`; for a shaft angle, its derivatives too. Does not update the paths.
+  /// Multiplies a column by `factor`; for a shaft angle, its derivatives too. Does not update the
+  /// paths.
   void scale(const Column& column, double factor);
   void exchange(const Column& one, const Column& other);
   void remove(const Column& column);

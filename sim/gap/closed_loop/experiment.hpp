@@ -6,16 +6,18 @@
 #include "sim/control/excitation.hpp"
 #include "sim/gap/diagnosis/fit.hpp"
 
-/// The next experiment: the excitation that best separates suspected effects that previous recordings do not distinguish.
+/// The next experiment: the excitation that best separates suspected effects that previous
+/// recordings do not distinguish.
 ///
-/// A run with the first suspect is predicted. Every other suspect is fitted to this run by the method of the diagnosis:
+/// A run with the first suspect is predicted. Every other suspect is fitted to this run by the
+/// method of the diagnosis:
 ///
 ///   split = sqrt(S_other − S_first)       S = Σ z² over stages and windows, each at its best fit
 ///
-/// The split is the distance of two suspects in standard deviations of noise (a likelihood ratio). Of the excitations
-/// that are safe in every predicted run, the one with the largest minimum split is chosen. A single suspect is compared
-/// with the robot without it. Ignores that another suspect may be the true one, and the separation of the others from
-/// each other.
+/// The split is the distance of two suspects in standard deviations of noise (a likelihood ratio).
+/// Of the excitations that are safe in every predicted run, the one with the largest minimum split
+/// is chosen. A single suspect is compared with the robot without it. Ignores that another suspect
+/// may be the true one, and the separation of the others from each other.
 namespace sim::closed_loop {
 
 struct ExperimentOptions {
@@ -52,7 +54,8 @@ struct Experiment {
   Excitation chosen;                  ///< empty if no candidate is safe
 };
 
-/// Chooses the next experiment. Throws the exceptions of predict_run, and std::invalid_argument without a suspect.
+/// Chooses the next experiment. Throws the exceptions of predict_run, and std::invalid_argument
+/// without a suspect.
 Experiment next_experiment(const erp::Robot& robot, const std::vector<effects::Placed>& suspects,
                            const ExperimentOptions& options = {});
 

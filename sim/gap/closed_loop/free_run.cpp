@@ -27,7 +27,8 @@ constexpr double max_offset_rad = 0.05;    // from the initial pose; chosen
 constexpr double max_period_error = 0.01;  // relative; chosen
 constexpr int bootstrap_draws = 400;       // chosen
 
-/// First row of a gap in which the commands are unknown because it is longer than held_rows; `rows`: no such gap.
+/// First row of a gap in which the commands are unknown because it is longer than held_rows;
+/// `rows`: no such gap.
 std::size_t first_long_gap(const residuals::ActuatorSignals& actuator, std::size_t rows) {
   const Signal& shaft = actuator.shaft_rad;
   std::size_t lost = 0;
@@ -56,7 +57,8 @@ std::string obstacle(const Episode& e, const erp::Robot& robot) {
   return "";
 }
 
-/// The sent set-point, converted from counts with the model's units; `reference` if the counts were not recorded.
+/// The sent set-point, converted from counts with the model's units; `reference` if the counts were
+/// not recorded.
 Signal commanded(const residuals::ActuatorSignals& recorded, const erp::Robot& robot,
                  const erp::Actuator& actuator) {
   const EcuUnits units(robot.motor_of(actuator), robot.sensors_of(actuator), actuator.spindle);
@@ -174,8 +176,8 @@ std::optional<LearnedEcu> foreign_ecu(std::span<const Episode> recordings, const
   return ecu;
 }
 
-/// Whether the learned laws include the delays of the bus. Laws that are learned from sent set-points do; laws that are
-/// learned from set-points that the ECU reports do not.
+/// Whether the learned laws include the delays of the bus. Laws that are learned from sent
+/// set-points do; laws that are learned from set-points that the ECU reports do not.
 bool has_delays(const std::optional<LearnedEcu>& learned, std::span<const Episode> recordings) {
   return learned && std::ranges::all_of(recordings, [](const Episode& e) {
            return std::ranges::all_of(e.actuators, [](const auto& a) { return a.sent.empty(); });

@@ -7,14 +7,14 @@
 #include "interfaces/values.hpp"
 #include "sim/gap/residuals/episode.hpp"
 
-/// The control law of an ECU with another firmware, learned from recordings for use in a free run. For each actuator and
-/// mode:
+/// The control law of an ECU with another firmware, learned from recordings for use in a free run.
+/// For each actuator and mode:
 ///
 ///   V(k) = w · φ(k − l),   φ = (1, ref, dref/dt, y, dy/dt, ∫(ref − y) dt, ω, i, F),   |V| ≤ supply
 ///
-/// y: controlled quantity of the mode (line wound −r θ, current or tension), ω: shaft speed, l: delay in rows.
-/// ref is taken from the row of the sensors or from the next row; the variant that explains more is used. w is computed
-/// by least squares over rows below the supply voltage.
+/// y: controlled quantity of the mode (line wound −r θ, current or tension), ω: shaft speed, l:
+/// delay in rows. ref is taken from the row of the sensors or from the next row; the variant that
+/// explains more is used. w is computed by least squares over rows below the supply voltage.
 namespace sim::closed_loop {
 
 /// Inputs of an ECU in one row.
@@ -48,13 +48,15 @@ struct LearnedLaw {
 /// By actuator and mode.
 using LearnedEcu = std::map<std::pair<std::size_t, erp::Mode>, LearnedLaw>;
 
-/// Learns the laws of the modes voltage, length, current and force that are recorded for at least one second.
+/// Learns the laws of the modes voltage, length, current and force that are recorded for at least
+/// one second.
 LearnedEcu learn(std::span<const residuals::Episode> recordings, const erp::Robot& robot);
 
-/// Returns the fraction of the variance of the voltages that this product's firmware, with the gains designed for
-/// `robot`, does not predict from the measurements. The newest commands are used. If the fraction exceeds `enough`,
-/// commands of a constant age (up to 60 ms) are used if their fraction is below a tenth of `enough`. The result is near 0
-/// for recordings of this firmware, even with a delayed bus; 1 if there is too little data.
+/// Returns the fraction of the variance of the voltages that this product's firmware, with the
+/// gains designed for `robot`, does not predict from the measurements. The newest commands are
+/// used. If the fraction exceeds `enough`, commands of a constant age (up to 60 ms) are used if
+/// their fraction is below a tenth of `enough`. The result is near 0 for recordings of this
+/// firmware, even with a delayed bus; 1 if there is too little data.
 double unexplained_by_firmware(std::span<const residuals::Episode> recordings,
                                const erp::Robot& robot, double enough = 0.05);
 

@@ -21,9 +21,10 @@ struct RestPose {
   bool at_rest = true;    ///< false: not at rest within RestPoseOptions::longest_s
 };
 
-/// Simulates the poses one after the other; the first starts in the initial pose. `shafts_rad`: by pose and actuator,
-/// positive: wound up. A PI controller of each shaft's true angle drives the motor within its supply voltage. The robot's
-/// effects are simulated. Throws the exceptions of World, and std::runtime_error if the motion is not finite.
+/// Simulates the poses one after the other; the first starts in the initial pose. `shafts_rad`: by
+/// pose and actuator, positive: wound up. A PI controller of each shaft's true angle drives the
+/// motor within its supply voltage. The robot's effects are simulated. Throws the exceptions of
+/// World, and std::runtime_error if the motion is not finite.
 std::vector<RestPose> rest_poses(const erp::Robot& robot,
                                  std::span<const std::vector<double>> shafts_rad,
                                  const RestPoseOptions& options = {});

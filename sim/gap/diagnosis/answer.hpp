@@ -34,17 +34,19 @@ struct IdentifiedEffect {
 
 /// Returns the effect with its values. Gain and intervals are 0.
 IdentifiedEffect identified(const effects::Placed& placed);
-/// Sets `supported` if the interval of the gain is above `least_gain` and the effect relieves a stage. The half width
-/// of an interval is 1.96 standard errors of the fit, plus 2 % of the value for the approximation by windows.
+/// Sets `supported` if the interval of the gain is above `least_gain` and the effect relieves a
+/// stage. The half width of an interval is 1.96 standard errors of the fit, plus 2 % of the value
+/// for the approximation by windows.
 IdentifiedEffect identified(const Ranked& ranked, double least_gain);
 IdentifiedEffect identified(const BusFit& fit);
 
-/// Returns the reason why the values of an effect are not determined; empty if they are determined. They are not
-/// determined if the intervals include the neutral values of all parameters, or if a value is at a bound that is not
-/// neutral.
+/// Returns the reason why the values of an effect are not determined; empty if they are determined.
+/// They are not determined if the intervals include the neutral values of all parameters, or if a
+/// value is at a bound that is not neutral.
 std::string undetermined(const IdentifiedEffect& effect);
 
-/// Whether a fitted value is at a bound that is not its neutral value. There a law degenerates to a simpler one.
+/// Whether a fitted value is at a bound that is not its neutral value. There a law degenerates to a
+/// simpler one.
 bool is_at_bound(const IdentifiedEffect& effect);
 
 /// Clears `supported` where a false discovery rate of 5 % requires it (Benjamini, Hochberg 1995).

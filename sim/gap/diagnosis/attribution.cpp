@@ -40,8 +40,8 @@ void add(std::vector<Attribution>& places, Attribution place) {
   same->interval.high = std::min(1.0, same->interval.high + place.interval.high);
 }
 
-/// Parts that can cause the gap: first those with the effects of highest gain, then the part of the stage with the
-/// largest share.
+/// Parts that can cause the gap: first those with the effects of highest gain, then the part of the
+/// stage with the largest share.
 std::vector<Part> suspects(const Problem& problem, const Evaluator& baseline,
                            const Attribution& widest, const std::vector<IdentifiedEffect>& ranked) {
   constexpr double smallest_gain = 0.3;  // that changes the order; chosen

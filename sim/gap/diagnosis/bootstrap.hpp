@@ -10,8 +10,9 @@ struct Interval {
   double low = 0, high = 0;
 };
 
-/// Returns the sorted values of `statistic(drawn)` for `draws` resamplings of `count` blocks. `drawn`: `count` indices of
-/// blocks, drawn with replacement. Source: Efron 1979; block bootstrap: Künsch 1989.
+/// Returns the sorted values of `statistic(drawn)` for `draws` resamplings of `count` blocks.
+/// `drawn`: `count` indices of blocks, drawn with replacement. Source: Efron 1979; block bootstrap:
+/// Künsch 1989.
 template <class Statistic>
 std::vector<double> bootstrap(std::size_t count, int draws, std::uint64_t seed,
                               Statistic statistic) {

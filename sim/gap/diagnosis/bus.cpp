@@ -26,7 +26,8 @@ struct Law {
   std::vector<double> offset_V;  ///< NaN: unknown
 };
 
-/// Law of the ECU firmware. `offset_V` is computed from the measurements of the previous row, by mode.
+/// Law of the ECU firmware. `offset_V` is computed from the measurements of the previous row, by
+/// mode.
 Law law_of(const residuals::ActuatorSignals& s, const erp::Robot& robot,
            const erp::Actuator& actuator, double period_s) {
   Law law;
@@ -81,7 +82,8 @@ void add_ages(const residuals::Episode& episode, const residuals::ActuatorSignal
   }
 }
 
-/// Adds ages from the set-points that the ECU reports: the age of the only command with that set-point.
+/// Adds ages from the set-points that the ECU reports: the age of the only command with that
+/// set-point.
 void add_reported_ages(const residuals::Episode& episode, const residuals::ActuatorSignals& s,
                        Ages& ages) {
   for (std::size_t k = age_limit; k < s.sent.size(); ++k) {
@@ -96,7 +98,8 @@ void add_reported_ages(const residuals::Episode& episode, const residuals::Actua
   }
 }
 
-/// Predicted frequency of each age with an effect. Commands are sent every tick and received in order.
+/// Predicted frequency of each age with an effect. Commands are sent every tick and received in
+/// order.
 std::vector<double> predicted_ages(const effects::Placed& placed, double period_s) {
   constexpr int ticks = 4000, settling_ticks = 200;  // chosen
   effects::Acting acting(std::span(&placed, 1), placed.on, effects::Seat::robot);
@@ -143,8 +146,8 @@ std::vector<double> observed_ages(std::span<const Ages> ages) {
   return frequency;
 }
 
-/// Fits the only parameter of a bus effect. Its interval contains the values whose likelihood is within a factor e² of
-/// the largest one.
+/// Fits the only parameter of a bus effect. Its interval contains the values whose likelihood is
+/// within a factor e² of the largest one.
 BusFit fit_one(effects::Placed placed, std::span<const Ages> train) {
   const double period_s = train[0].period_s;
   BusFit best{placed, 0, 0, 0, 0, false};

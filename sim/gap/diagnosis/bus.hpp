@@ -8,15 +8,17 @@
 #include "sim/gap/residuals/episode.hpp"
 #include "sim/model/effects/library.hpp"
 
-/// Age of the commands that the ECUs applied, and the bus effect that explains the distribution of ages.
+/// Age of the commands that the ECUs applied, and the bus effect that explains the distribution of
+/// ages.
 ///
 ///   followed_k = sent_{k−a}                       a: age in ticks, if both set-points were recorded;
 ///   V_k = law(reference_{k−a}, measured)          otherwise from the applied voltage
 ///
-/// Ticks whose command equals the previous one do not determine an age. The law is that of the ECU firmware with the
-/// gains designed for the robot (sim/control/gain_design), in length or force mode. Ticks at a limit are ignored. A bus
-/// effect predicts the frequency of each age; effects are compared by their likelihood. If the voltages of a recording
-/// match no command (ECU with another law), the bus is not evaluated.
+/// Ticks whose command equals the previous one do not determine an age. The law is that of the ECU
+/// firmware with the gains designed for the robot (sim/control/gain_design), in length or force
+/// mode. Ticks at a limit are ignored. A bus effect predicts the frequency of each age; effects are
+/// compared by their likelihood. If the voltages of a recording match no command (ECU with another
+/// law), the bus is not evaluated.
 namespace sim::diagnosis {
 
 struct Ages {
@@ -32,16 +34,19 @@ Ages command_ages(const residuals::Episode& episode, const erp::Robot& robot);
 struct BusFit {
   effects::Placed placed;
   double value = 0, low = 0, high = 0;
-  /// Log-likelihood on held-out recordings, scaled: 0 without an effect, 1 for the observed frequencies.
+  /// Log-likelihood on held-out recordings, scaled: 0 without an effect, 1 for the observed
+  /// frequencies.
   double gain = 0;
   bool supported = false;
 };
 
-/// Fits the bus effects. Returns the best first. Empty if nearly all ages are 0, or too few ages were determined.
+/// Fits the bus effects. Returns the best first. Empty if nearly all ages are 0, or too few ages
+/// were determined.
 std::vector<BusFit> fit_bus(std::span<const Ages> train, std::span<const Ages> held_out,
                             const erp::Robot& robot, const std::vector<std::string>& withhold);
 
-/// Fraction of ticks with a delayed command above which the bus is reported as delayed. Clock drift causes less. Chosen.
+/// Fraction of ticks with a delayed command above which the bus is reported as delayed. Clock drift
+/// causes less. Chosen.
 inline constexpr double negligible_delayed_fraction = 0.02;
 
 /// Whether enough ages were determined to evaluate the bus.

@@ -75,7 +75,8 @@ NextEffect next(const std::vector<Sensitivity>& all, const Products& products, s
   return best;
 }
 
-/// Replaces each chosen effect in turn if another one has a smaller remainder with the others. Returns the remainder.
+/// Replaces each chosen effect in turn if another one has a smaller remainder with the others.
+/// Returns the remainder.
 double exchange(const std::vector<Sensitivity>& all, const Products& products, std::size_t hidden,
                 std::vector<std::size_t>& chosen, double remaining) {
   for (std::size_t unchanged = 0, at = 0; unchanged < chosen.size();

@@ -5,9 +5,10 @@
 ///
 ///   remaining² = |δz|² − bᵀ G⁻¹ b     b = Sᵀ δz, G = Sᵀ S
 ///
-/// δz: change by the effect; S: changes by the parameters of the others. The others are selected one by one, each time
-/// the one with the smallest remainder. Each is replaced if another effect in its place has a smaller remainder
-/// (sequential replacement: Miller, Subset Selection in Regression, 2002). There may be smaller sets and other sets.
+/// δz: change by the effect; S: changes by the parameters of the others. The others are selected
+/// one by one, each time the one with the smallest remainder. Each is replaced if another effect in
+/// its place has a smaller remainder (sequential replacement: Miller, Subset Selection in
+/// Regression, 2002). There may be smaller sets and other sets.
 namespace sim::diagnosis {
 
 struct ConfounderOptions {
@@ -17,8 +18,8 @@ struct ConfounderOptions {
   int threads = 2;
 };
 
-/// Returns each effect that effects of other types reproduce within `share`, exact matches first. Effects on the bus and
-/// quantization change no residual and are not listed.
+/// Returns each effect that effects of other types reproduce within `share`, exact matches first.
+/// Effects on the bus and quantization change no residual and are not listed.
 std::vector<Indistinguishable> confounders(const Evaluator& evaluator,
                                            const ConfounderOptions& options);
 

@@ -23,8 +23,8 @@ std::vector<std::string> names_of(const Problem& problem, const std::vector<std:
   return names;
 }
 
-/// Whether the best single effect leaves only noise on a robot with many actuators. The time of a joint estimate grows
-/// with the square of their number.
+/// Whether the best single effect leaves only noise on a robot with many actuators. The time of a
+/// joint estimate grows with the square of their number.
 bool leaves_noise_on_large_robot(const Problem& problem, const Selection& selection) {
   constexpr std::size_t many_actuators = 12;  // chosen
   constexpr double noise_excess = 0.2;        // chosen
@@ -39,7 +39,8 @@ bool agree(const JointEstimate& built, const Selection& selection) {
          selection.answer.size() == 1 && built.answer[0].is(selection.answer[0].placed);
 }
 
-/// Whether all causes of an answer have different places. Several causes at one place can fit nearly any law.
+/// Whether all causes of an answer have different places. Several causes at one place can fit
+/// nearly any law.
 bool have_different_places(const std::vector<IdentifiedEffect>& answer) {
   for (std::size_t a = 0; a < answer.size(); ++a)
     for (std::size_t b = a + 1; b < answer.size(); ++b)
@@ -59,10 +60,11 @@ void add_indistinguishable(IdentifiedEffect& answer, const IdentifiedEffect& oth
       answer.alternatives.push_back(n);
 }
 
-/// Replaces values and intervals of the single effect by those of the joint estimate. The joint estimate fits the zeros
-/// too and uses the noise floor of the robot with the effect. With the noise floor of the robot as described, least
-/// squares underestimates an effect that multiplies a noisy signal, and its interval (errors in variables). Returns false
-/// and does not change `selection` if these values leave a stage open without the fitted zeros.
+/// Replaces values and intervals of the single effect by those of the joint estimate. The joint
+/// estimate fits the zeros too and uses the noise floor of the robot with the effect. With the
+/// noise floor of the robot as described, least squares underestimates an effect that multiplies a
+/// noisy signal, and its interval (errors in variables). Returns false and does not change
+/// `selection` if these values leave a stage open without the fitted zeros.
 bool use_estimate(const Question& q, const IdentifiedEffect& estimated, Selection& selection) {
   const Problem& problem = q.problem;
   Evaluation evaluation =
@@ -81,9 +83,9 @@ bool use_estimate(const Question& q, const IdentifiedEffect& estimated, Selectio
 /// Splits the recordings again by the residuals of a robot. Returns whether the split changed.
 using SplitAgain = std::function<bool(const erp::Robot&)>;
 
-/// Whether a joint estimate is accepted without a search for several effects with the given constants: it explains the
-/// gap with one effect, or with estimated constants. For a drive it must leave only noise, because its whole friction is
-/// at one place.
+/// Whether a joint estimate is accepted without a search for several effects with the given
+/// constants: it explains the gap with one effect, or with estimated constants. For a drive it must
+/// leave only noise, because its whole friction is at one place.
 bool is_sufficient(const Problem& problem, const JointEstimate& built) {
   if (problem.robot.drives.empty())
     return built.explained() && (!built.exact || built.answer.size() == 1);
@@ -92,8 +94,8 @@ bool is_sufficient(const Problem& problem, const JointEstimate& built) {
          std::ranges::all_of(built.remaining, [&](const StageGap& g) { return g.excess < noise; });
 }
 
-/// Finds the answer: the joint estimate, unless effects alone explain the gap equally well or better. Returns false if
-/// neither explains it and the recordings were split again.
+/// Finds the answer: the joint estimate, unless effects alone explain the gap equally well or
+/// better. Returns false if neither explains it and the recordings were split again.
 bool answer(const Question& q, const SplitAgain& split_again, Diagnosis& d) {
   const Problem& problem = q.problem;
   const bool has_coarse_sensors = !q.detected.sensors.empty();
@@ -133,8 +135,8 @@ erp::Robot as_detected(const erp::Robot& robot, const Detected& detected) {
   return corrected;
 }
 
-/// Diagnosis of recordings that are split into sets. `baseline`: evaluator of the given robot. Empty if the recordings
-/// were split again.
+/// Diagnosis of recordings that are split into sets. `baseline`: evaluator of the given robot.
+/// Empty if the recordings were split again.
 std::optional<Diagnosis> diagnosed(Problem& problem, const Evaluator& baseline,
                                    const CutRecordings& cut, const SplitAgain& split_again) {
   const erp::Robot& robot = problem.robot;

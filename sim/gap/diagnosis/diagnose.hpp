@@ -6,8 +6,8 @@
 #include "sim/gap/diagnosis/gap_closure.hpp"
 #include "sim/gap/diagnosis/joint_estimate.hpp"
 
-/// The whole diagnosis: localization, identification and gap closure. Gap closure is evaluated on recordings, or on the
-/// part of a recording, that were not used for fits.
+/// The whole diagnosis: localization, identification and gap closure. Gap closure is evaluated on
+/// recordings, or on the part of a recording, that were not used for fits.
 namespace sim::diagnosis {
 
 enum class Verdict { no_gap, supported, none_of_the_known, not_identifiable };
@@ -27,7 +27,8 @@ struct Diagnosis {
   std::vector<StageGap> stages;          ///< of the nominal robot, all recordings
   std::vector<IdentifiedEffect> answer;  ///< effects that jointly close the gap
   std::vector<IdentifiedEffect> ranked;  ///< effects fitted one by one, best first
-  /// The robot with estimated constants and the effects of `answer`, if effects alone do not explain the gap.
+  /// The robot with estimated constants and the effects of `answer`, if effects alone do not
+  /// explain the gap.
   std::optional<erp::Robot> as_built;
   std::vector<ConstantEstimate> constants;  ///< of that robot
   double interaction =
@@ -44,8 +45,9 @@ struct Diagnosis {
   bool uses_held_out_data() const { return train != held_out || !split_recordings.empty(); }
 };
 
-/// Diagnoses recordings of a robot. All recordings must have the same signals (common_signals.hpp). Throws
-/// std::invalid_argument without a recording, and for recordings in which no stage can be evaluated.
+/// Diagnoses recordings of a robot. All recordings must have the same signals (common_signals.hpp).
+/// Throws std::invalid_argument without a recording, and for recordings in which no stage can be
+/// evaluated.
 Diagnosis diagnose(const erp::Robot& robot, std::vector<residuals::Episode> episodes,
                    const DiagnoseOptions& options = {});
 

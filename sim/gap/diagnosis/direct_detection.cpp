@@ -8,8 +8,8 @@
 namespace sim::diagnosis {
 namespace {
 
-/// Adds bus effects that were detected from the timing of the rows (sim/gap/estimation/row_timing, defective_rows). A
-/// delay of commands and a delay of sensors are indistinguishable.
+/// Adds bus effects that were detected from the timing of the rows (sim/gap/estimation/row_timing,
+/// defective_rows). A delay of commands and a delay of sensors are indistinguishable.
 void add_rows(const Problem& problem, Detected& detected) {
   const residuals::Episode& first = problem.episodes[0];  // these values are equal in all episodes
   const auto add = [&](const char* type, double value, double half_width) {

@@ -87,7 +87,8 @@ bool EffectSet::helps(const EffectSet& before) const {
                 before.remaining(problem_.get().options.search)) > smallest_relief;
 }
 
-/// Replaces effect k if another effect is better. An earlier choice may have been a compromise between two effects.
+/// Replaces effect k if another effect is better. An earlier choice may have been a compromise
+/// between two effects.
 void EffectSet::reconsider(std::size_t k, double from, double to) {
   auto others = without_element(chosen_, k);
   const auto ranked = rank(evaluator_, evaluator_.get().with(others, sets().all()),

@@ -6,7 +6,8 @@
 #include "sim/gap/diagnosis/fit.hpp"
 #include "sim/gap/diagnosis/problem.hpp"
 
-/// Several effects, jointly fitted to the training recordings and evaluated on the held-out recordings.
+/// Several effects, jointly fitted to the training recordings and evaluated on the held-out
+/// recordings.
 namespace sim::diagnosis {
 
 class EffectSet {
@@ -24,9 +25,9 @@ class EffectSet {
   double square() const;  ///< remaining Σ z² on the held-out recordings
 
   void refit();
-  /// Fits each of the best screened effects jointly with the present ones. Adds the one with the smallest Σ z² if it
-  /// removes half of the remaining excess of an open stage. Then reconsiders each of the others. Returns whether an effect
-  /// was added.
+  /// Fits each of the best screened effects jointly with the present ones. Adds the one with the
+  /// smallest Σ z² if it removes half of the remaining excess of an open stage. Then reconsiders
+  /// each of the others. Returns whether an effect was added.
   bool add_another();
   /// Removes effects without which no stage is unexplained.
   void remove_unnecessary();
@@ -48,10 +49,10 @@ class EffectSet {
 std::vector<effects::Placed> without_element(std::vector<effects::Placed> all, std::size_t k);
 bool any_open(const std::vector<StageGap>& gaps);
 
-/// The same type of effect on every actuator with an open stage, as caused by an error in a drawing or a batch: of the
-/// types that relieve one of these actuators, the one with the smallest Σ z². A stepwise search does not find it if
-/// another effect, for example of a joint sensor, removes a part of the gap of all actuators. Empty if no type closes the
-/// gap.
+/// The same type of effect on every actuator with an open stage, as caused by an error in a drawing
+/// or a batch: of the types that relieve one of these actuators, the one with the smallest Σ z². A
+/// stepwise search does not find it if another effect, for example of a joint sensor, removes a
+/// part of the gap of all actuators. Empty if no type closes the gap.
 std::optional<EffectSet> same_type_on_open_actuators(const Problem& problem,
                                                      const Evaluator& evaluator,
                                                      const std::vector<Ranked>& ranked);

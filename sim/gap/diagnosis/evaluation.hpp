@@ -11,8 +11,8 @@
 ///   z = r/σ     r: residual of a stage in a window, σ: its noise floor there
 ///   S = Σ z²    over stages and windows that can be evaluated for the nominal robot
 ///
-/// If a window cannot be evaluated with the effects, its nominal residual is used. Otherwise effects would gain by
-/// invalidating windows.
+/// If a window cannot be evaluated with the effects, its nominal residual is used. Otherwise
+/// effects would gain by invalidating windows.
 namespace sim::diagnosis {
 
 /// Residuals of the robot with `effects` on every recording.
@@ -29,7 +29,8 @@ struct ScoreBlock {
 
 class Evaluator {
  public:
-  /// Throws the exceptions of Stages, and std::invalid_argument if no stage can be evaluated in the recordings.
+  /// Throws the exceptions of Stages, and std::invalid_argument if no stage can be evaluated in the
+  /// recordings.
   Evaluator(const erp::Robot& nominal, std::vector<residuals::Episode> episodes,
             std::uint64_t seed = 1);
 
@@ -58,8 +59,9 @@ class Evaluator {
   double floor(std::size_t episode, std::size_t residual) const {
     return floors_[episode][residual].rms;
   }
-  /// Noise floors of the robot with effects, in the order of the residuals of `evaluation`. They differ because, for
-  /// example, the compensation of a low-pass amplifies noise. Costs two evaluations of the recording.
+  /// Noise floors of the robot with effects, in the order of the residuals of `evaluation`. They
+  /// differ because, for example, the compensation of a low-pass amplifies noise. Costs two
+  /// evaluations of the recording.
   std::vector<residuals::Floor> floor_under(const Evaluation& evaluation,
                                             std::size_t episode) const;
 

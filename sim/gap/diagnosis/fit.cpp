@@ -16,8 +16,8 @@
 namespace sim::diagnosis {
 namespace {
 
-/// A parameter in the coordinate of the optimizer, u = 1 + value/scale. Ceres makes steps relative to u; near u = 1 they
-/// are relative to the scale.
+/// A parameter in the coordinate of the optimizer, u = 1 + value/scale. Ceres makes steps relative
+/// to u; near u = 1 they are relative to the scale.
 struct ScaledParameter {
   double* value;
   effects::Bounds bounds;
@@ -37,8 +37,8 @@ std::vector<ScaledParameter> scaled_parameters(effects::AnyEffect& effect) {
 
 using Effects = std::vector<effects::Placed>;
 
-/// Cache of the last residual vectors. Ceres requests each repeatedly: in its line search, for the cost of
-/// the step, and for the derivatives.
+/// Cache of the last residual vectors. Ceres requests each repeatedly: in its line search, for the
+/// cost of the step, and for the derivatives.
 class Cache {
  public:
   using Vector = std::vector<double>;
@@ -133,8 +133,8 @@ Minimum minimize(const Cost& cost_function, std::vector<double> u, int iteration
   return least;
 }
 
-/// Start points: the values of the parameters (perturbed if they are neutral), then with the second parameter at
-/// fractions of its bounds.
+/// Start points: the values of the parameters (perturbed if they are neutral), then with the second
+/// parameter at fractions of its bounds.
 std::vector<std::vector<double>> starts(const std::vector<ScaledParameter>& scaled, bool has_values,
                                         const FitOptions& options) {
   constexpr double perturbation = 2e-3;  // of the bounds, off the kink of a law at neutral
@@ -159,8 +159,8 @@ std::vector<double> values_of(effects::Placed placed) {
   return values;
 }
 
-/// Evaluates several effects. If only one effect differs from the last full evaluation, as in numerical derivatives, only
-/// the parts that it changes are recomputed.
+/// Evaluates several effects. If only one effect differs from the last full evaluation, as in
+/// numerical derivatives, only the parts that it changes are recomputed.
 class IncrementalEvaluation {
  public:
   IncrementalEvaluation(const Evaluator& evaluator, std::span<const std::size_t> episodes)

@@ -11,7 +11,8 @@ double closed_of(const ClosedGap& c) {
   return c.before > c.floor ? (c.before - c.after) / (c.before - c.floor) : 0;
 }
 
-/// Blocks of the residual above the corrected noise floor σ_c, in units of the baseline noise floor σ, with z_c = r/σ_c:
+/// Blocks of the residual above the corrected noise floor σ_c, in units of the baseline noise floor
+/// σ, with z_c = r/σ_c:
 ///
 ///   z² = 1 + (σ_c/σ)² (z_c² − 1)
 std::vector<ScoreBlock> above_known_noise(const Evaluator& baseline, const Evaluator& corrected,
@@ -43,7 +44,8 @@ std::vector<ScoreBlock> above_known_noise(const Evaluator& baseline, const Evalu
   return all;
 }
 
-/// Interval of a stage from seconds of the held-out recordings. `floor_ratio`: corrected / baseline noise floor.
+/// Interval of a stage from seconds of the held-out recordings. `floor_ratio`: corrected / baseline
+/// noise floor.
 Interval closed_interval(const Problem& problem, const std::vector<ScoreBlock>& before,
                          const std::vector<ScoreBlock>& after, double floor_ratio) {
   const auto closed = [&](const std::vector<std::size_t>& drawn) {

@@ -5,8 +5,9 @@
 
 /// Gap closure: the part of the gap that the answer closes, on held-out recordings.
 ///
-/// `corrected`: evaluator of the robot with directly detected effects. If a sensor is coarser than its data sheet, its
-/// noise is not part of the gap: only the remaining residual above that noise is.
+/// `corrected`: evaluator of the robot with directly detected effects. If a sensor is coarser than
+/// its data sheet, its noise is not part of the gap: only the remaining residual above that noise
+/// is.
 namespace sim::diagnosis {
 
 /// An error with the nominal robot and with the answer.

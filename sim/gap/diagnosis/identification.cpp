@@ -17,8 +17,8 @@ using effects::Placed;
 constexpr double least_gap =
     0.02;  // of the noise; a fraction of a smaller gap is meaningless; chosen
 
-/// Scores of a candidate at the open stages and at the stages that it makes worse. Other stages are ignored because a
-/// fit of the noise of a stage without a gap is not a gain.
+/// Scores of a candidate at the open stages and at the stages that it makes worse. Other stages are
+/// ignored because a fit of the noise of a stage without a gap is not a gain.
 struct Score {
   std::vector<ScoreBlock> before, after;  ///< at these stages
   std::vector<ScoreBlock> gap;            ///< before, at the open stages
@@ -83,8 +83,8 @@ Interval paired_difference(const Ranked& other, const Ranked& best, const Rankin
 
 bool is_within_bounds(const Ranked& r) { return !has_size_at_bound(r.fit.placed); }
 
-/// Orders the effects that are equally good as the first: fewer parameters first, then corrections of a constant, then
-/// the order of the library.
+/// Orders the effects that are equally good as the first: fewer parameters first, then corrections
+/// of a constant, then the order of the library.
 void prefer_simple(std::vector<Ranked>& ranked, const RankingOptions& options) {
   constexpr double similar_gain = 1e-3, equal_gain = 1e-4;  // differences of gains; chosen
   if (ranked.empty()) return;
@@ -117,7 +117,8 @@ std::vector<Ranked> rank(const Evaluator& evaluator, const Evaluation& base,
     if (options.progress) options.progress(++done, chosen.size());
   });
   std::ranges::stable_sort(ranked, std::greater(), &Ranked::gain);
-  // A size at its bound is not an estimate: it reduces residuals by scaling the whole equation down.
+  // A size at its bound is not an estimate: it reduces residuals by scaling the whole equation
+  // down.
   std::ranges::stable_partition(ranked, is_within_bounds);
   std::ranges::stable_partition(ranked, &Ranked::relieves);
   prefer_simple(ranked, options);

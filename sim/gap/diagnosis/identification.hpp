@@ -8,8 +8,8 @@
 #include "sim/gap/diagnosis/fit.hpp"
 #include "sim/gap/diagnosis/localization.hpp"
 
-/// Identification: every effect of the library at every place is fitted individually to the training recordings and
-/// evaluated on held-out recordings.
+/// Identification: every effect of the library at every place is fitted individually to the
+/// training recordings and evaluated on held-out recordings.
 ///
 ///   gain = (S₀ − S₁)/(S₀ − N)     S₀, S₁: Σ z² before and after; N: number of windows, Σ z² of noise
 ///
@@ -39,19 +39,19 @@ struct Ranked {
   Interval gain_interval;  ///< 95 %
   double p_value = 1;      ///< fraction of draws without a gain
   double relief = 1;       ///< localization.hpp; 1 if `stages` has no open stage
-  /// Whether the effect removes a substantial part of the excess of an open stage. Changes at stages without a gap
-  /// explain nothing.
+  /// Whether the effect removes a substantial part of the excess of an open stage. Changes at
+  /// stages without a gap explain nothing.
   bool relieves() const { return relief > 0.3; }  // chosen
 };
 
-/// Fits every screened effect and returns the best first. Order: effects that relieve a stage, then sizes within their
-/// bounds, then gain; of equally good effects the simpler one.
+/// Fits every screened effect and returns the best first. Order: effects that relieve a stage, then
+/// sizes within their bounds, then gain; of equally good effects the simpler one.
 std::vector<Ranked> rank(const Evaluator& evaluator, const Evaluation& base,
                          const RankingOptions& options);
 
-/// Returns the indices of the effects that are not distinguishable from the first: the interval of their paired
-/// difference to the first includes zero, or the difference of the gains (limited to 1) is below `practical`. The first
-/// is not included.
+/// Returns the indices of the effects that are not distinguishable from the first: the interval of
+/// their paired difference to the first includes zero, or the difference of the gains (limited to
+/// 1) is below `practical`. The first is not included.
 std::vector<std::size_t> confusable(const std::vector<Ranked>& ranked,
                                     const RankingOptions& options, double practical = 0.01);
 

@@ -43,8 +43,8 @@ std::vector<ConstantEstimate> constants_of(const estimation::AsBuilt& built) {
   return all;
 }
 
-/// Parts with deviating constants, the largest first. Share: Σ z² of the change by the deviations of a part (linearized),
-/// relative to the sum over all parts.
+/// Parts with deviating constants, the largest first. Share: Σ z² of the change by the deviations
+/// of a part (linearized), relative to the sum over all parts.
 std::vector<Attribution> deviating_parts(const estimation::AsBuilt& built) {
   constexpr double smallest_share = 0.02;  // of a listed part; chosen
   std::map<std::pair<effects::Stage, std::string>, Eigen::VectorXd> change;
@@ -113,7 +113,8 @@ Evaluator evaluator_of(const Problem& problem, const erp::Robot& robot) {
   return {robot, problem.episodes, problem.options.seed};
 }
 
-/// The robot as built with a subset of its causes: its effects, then its constants that are far off.
+/// The robot as built with a subset of its causes: its effects, then its constants that are far
+/// off.
 erp::Robot robot_with(const estimation::AsBuilt& built, const std::vector<bool>& is_included) {
   estimation::Point some = built.estimate.point;
   const std::size_t effects = some.effects.size();
@@ -144,7 +145,8 @@ double set_gains(const Problem& problem, const Evaluator& baseline,
   return each.interaction;
 }
 
-/// Excess of a stage without the 1 % of its seconds with the largest residuals. A single event is not a law.
+/// Excess of a stage without the 1 % of its seconds with the largest residuals. A single event is
+/// not a law.
 double without_events(const Evaluator& evaluator, const StageGap& gap,
                       const std::vector<std::size_t>& set) {
   auto blocks = evaluator.blocks(

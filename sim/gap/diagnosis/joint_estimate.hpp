@@ -8,8 +8,8 @@
 #include "sim/gap/diagnosis/problem.hpp"
 #include "sim/gap/estimation/as_built.hpp"
 
-/// The result of sim/gap/estimation as an answer: missing effects, constants beyond their tolerances, and constants
-/// within their tolerances.
+/// The result of sim/gap/estimation as an answer: missing effects, constants beyond their
+/// tolerances, and constants within their tolerances.
 namespace sim::diagnosis {
 
 /// The estimate of a constant of robot.xml.
@@ -42,14 +42,14 @@ struct JointEstimate {
   bool explained() const;
 };
 
-/// Estimates effects and constants jointly. `robot`: with directly detected effects. `suggested`: effects that a search
-/// with constants as described found.
+/// Estimates effects and constants jointly. `robot`: with directly detected effects. `suggested`:
+/// effects that a search with constants as described found.
 JointEstimate estimate_jointly(const Problem& problem, const erp::Robot& robot,
                                const Evaluator& baseline,
                                const std::vector<IdentifiedEffect>& suggested);
 
-/// Estimates values and intervals of `effect` jointly with the unmeasured zeros of `robot`, with other constants as
-/// described. Gain and alternatives are not set.
+/// Estimates values and intervals of `effect` jointly with the unmeasured zeros of `robot`, with
+/// other constants as described. Gain and alternatives are not set.
 IdentifiedEffect estimated(const Problem& problem, const erp::Robot& robot,
                            const IdentifiedEffect& effect);
 

@@ -28,8 +28,8 @@ struct StageGap {
   std::size_t windows = 0;
   bool judged = false;  ///< it has enough windows for an evaluation
   double share = 0;
-  /// Judged and above its noise floor: the lower end of the interval exceeds practical_excess, or a block exceeds
-  /// block_excess.
+  /// Judged and above its noise floor: the lower end of the interval exceeds practical_excess, or a
+  /// block exceeds block_excess.
   bool open = false;
 };
 
@@ -61,8 +61,8 @@ struct StageScore {
 std::vector<StageScore> by_stage(const Evaluator& evaluator, const Evaluation& evaluation,
                                  std::span<const std::size_t> episodes);
 
-/// Returns the largest relative reduction of the excess of an open stage from `before` to `after`. 1: a stage is reduced
-/// to its noise floor.
+/// Returns the largest relative reduction of the excess of an open stage from `before` to `after`.
+/// 1: a stage is reduced to its noise floor.
 double relief(const Evaluator& evaluator, const Evaluation& before, const Evaluation& after,
               std::span<const std::size_t> episodes, std::span<const StageGap> stages);
 

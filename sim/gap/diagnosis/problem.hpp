@@ -23,8 +23,8 @@ struct DiagnoseOptions {
   const Pool* pool = nullptr;  ///< the processes of `mpirun`; null: only `threads`
   std::uint64_t seed = 1;
   std::size_t most_effects = 3;
-  /// Tolerated excess of a stage: with a single effect, whose law may differ in form; with several effects; in the search
-  /// for another effect. Chosen on development cases.
+  /// Tolerated excess of a stage: with a single effect, whose law may differ in form; with several
+  /// effects; in the search for another effect. Chosen on development cases.
   Tolerance single{5, 0.005, 0.001}, effect_set{2, 0.005, 0}, search{1.5, 0.005, 0};
   double least_gain = 0.02;  ///< lower end of the interval of the gain of a supported effect
   /// Called with the name of the step and the completed fraction, 0 … 1.

@@ -21,7 +21,8 @@ void add(std::vector<effects::Placed>& all, const char* type, const std::string&
   all.push_back(placed);
 }
 
-/// Coherence of values v with step s, |Σ e^(2πi v/s)|/n. It is 1 if all are multiples of s plus a common offset.
+/// Coherence of values v with step s, |Σ e^(2πi v/s)|/n. It is 1 if all are multiples of s plus a
+/// common offset.
 double coherence(const std::vector<double>& values, double s) {
   double c = 0, i = 0;
   for (const double v : values) {
@@ -31,8 +32,8 @@ double coherence(const std::vector<double>& values, double s) {
   return std::hypot(c, i) / static_cast<double>(values.size());
 }
 
-/// Coherence that n random readings over a length L rarely reach. For one step they reach r with probability exp(−n r²).
-/// The range s₀ … s₁ contains (s₁ − s₀) L/s² independent steps.
+/// Coherence that n random readings over a length L rarely reach. For one step they reach r with
+/// probability exp(−n r²). The range s₀ … s₁ contains (s₁ − s₀) L/s² independent steps.
 double significant_coherence(std::size_t n, double length, double range, double s) {
   constexpr double chance = 2e-3;  // chosen: eight readings with one exact step are significant
   const double independent_steps = std::max(1.0, range * length / (s * s));
@@ -64,9 +65,9 @@ struct Steps {
   double widest() const { return guess + 1.5; }
 };
 
-/// Intervals of `length` steps, spread over the range of the readings. They are short because the phase error of a
-/// slightly wrong step grows with the distance. Several are needed because readings of a uniform motion are equally
-/// spaced too, but with another spacing in each interval.
+/// Intervals of `length` steps, spread over the range of the readings. They are short because the
+/// phase error of a slightly wrong step grows with the distance. Several are needed because
+/// readings of a uniform motion are equally spaced too, but with another spacing in each interval.
 std::vector<ShortInterval> short_intervals(const std::vector<double>& values, Steps steps,
                                            double length) {
   constexpr std::size_t max_count = 5;  // chosen

@@ -14,7 +14,8 @@ namespace sim::diagnosis {
 /// Returns this fraction.
 double reversal_fraction(const Evaluator& evaluator);
 
-/// Returns the reason why friction is not determined. Empty if it is determined, or if the robot has no drive.
+/// Returns the reason why friction is not determined. Empty if it is determined, or if the robot
+/// has no drive.
 std::optional<std::string> rows_too_far_apart(const Evaluator& evaluator);
 
 }  // namespace sim::diagnosis

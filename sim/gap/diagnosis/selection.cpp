@@ -37,8 +37,8 @@ Change change_of(const Problem& problem, const Evaluator& evaluator,
   return change;
 }
 
-/// Sets `signature` and `similarity` of each candidate from its change on the held-out recordings. Clears the
-/// evaluations of `ranked`, which are large.
+/// Sets `signature` and `similarity` of each candidate from its change on the held-out recordings.
+/// Clears the evaluations of `ranked`, which are large.
 void compute_signatures(const Problem& problem, const Evaluator& evaluator,
                         const std::vector<StageGap>& stages, std::vector<Ranked>& ranked,
                         std::vector<IdentifiedEffect>& names) {
@@ -73,7 +73,8 @@ std::vector<IdentifiedEffect> alternatives(const Problem& problem, const Evaluat
   return all;
 }
 
-/// Sets the answer to several effects with their Shapley values and, if they explain the gap, their alternatives.
+/// Sets the answer to several effects with their Shapley values and, if they explain the gap, their
+/// alternatives.
 void set_answer(const Problem& problem, const Evaluator& evaluator, const EffectSet& chosen_set,
                 Selection& selection) {
   const ShapleyValues values = shapley_values(problem, evaluator, chosen_set.chosen());

@@ -5,8 +5,8 @@
 
 #include "sim/gap/diagnosis/evaluation.hpp"
 
-/// Sensitivity: change δz of the residuals by a small effect, in units of noise. It is 0 in windows that are not
-/// evaluated. Laws are linearized.
+/// Sensitivity: change δz of the residuals by a small effect, in units of noise. It is 0 in windows
+/// that are not evaluated. Laws are linearized.
 namespace sim::diagnosis {
 
 constexpr double visible_change = 1;  ///< smallest visible |δz|, in standard deviations

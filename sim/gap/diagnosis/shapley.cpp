@@ -27,7 +27,8 @@ struct Subsets {
   Set total() const { return single(count) - 1; }
 };
 
-/// The evaluated subsets: all subsets; for many effects the empty one, each effect, all but each, and all effects.
+/// The evaluated subsets: all subsets; for many effects the empty one, each effect, all but each,
+/// and all effects.
 std::vector<Set> evaluated_subsets(std::size_t count) {
   const Set total = single(count) - 1;
   std::vector<Set> sets;

@@ -10,8 +10,8 @@
 ///   v(S) = (S₀ − S_S)/(S₀ − N)                    gap closed by the subset S of the effects
 ///   φ_k  = mean of v(S + k) − v(S) over all orders in which the effects can be added      (Shapley 1953)
 ///
-/// For more than six effects: φ_k = (v({k}) + v(all) − v(all but k))/2, which is equal if no three effects interact.
-/// Σ φ_k = v(all). lost: v(all) − v(all but k); interaction: v(all) − Σ v({k}).
+/// For more than six effects: φ_k = (v({k}) + v(all) − v(all but k))/2, which is equal if no three
+/// effects interact. Σ φ_k = v(all). lost: v(all) − v(all but k); interaction: v(all) − Σ v({k}).
 namespace sim::diagnosis {
 
 struct ShapleyValues {

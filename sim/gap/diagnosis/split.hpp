@@ -15,8 +15,8 @@ struct Sets {
 /// Holds out about a third: the recordings whose signals exceed the range of the others most.
 Sets split(std::span<const residuals::Episode> episodes);
 
-/// Ensures that both sets show the gap. If one does not, and at least two recordings show the stage with the largest
-/// excess, the recording with the second largest excess is held out.
+/// Ensures that both sets show the gap. If one does not, and at least two recordings show the stage
+/// with the largest excess, the recording with the second largest excess is held out.
 Sets hold_out_visible(Sets sets, const Evaluator& baseline, const LocalizationOptions& options);
 
 /// A recording split in two parts, of which the second is held out.
@@ -26,8 +26,8 @@ struct Cut {
   std::string on;
 };
 
-/// For each open stage that only one set shows: the recording that shows it best, cut at half of its excess. Omitted if
-/// one of the parts would not show the stage.
+/// For each open stage that only one set shows: the recording that shows it best, cut at half of
+/// its excess. Omitted if one of the parts would not show the stage.
 std::vector<Cut> cuts(const Sets& sets, const Evaluator& baseline,
                       const LocalizationOptions& options);
 

@@ -10,8 +10,8 @@
 namespace sim::diagnosis {
 namespace {
 
-/// (JᵀJ)⁻¹ by its eigenvectors. A diagonal entry is infinite if the residuals do not depend on the parameter, or if other
-/// parameters have the same effect on them.
+/// (JᵀJ)⁻¹ by its eigenvectors. A diagonal entry is infinite if the residuals do not depend on the
+/// parameter, or if other parameters have the same effect on them.
 Eigen::MatrixXd covariance(const Eigen::MatrixXd& j) {
   constexpr double infinite = std::numeric_limits<double>::infinity(), rounding_error = 1e-9;
   const Eigen::VectorXd length = j.colwise().norm().transpose();

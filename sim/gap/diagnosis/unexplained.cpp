@@ -8,7 +8,8 @@
 namespace sim::diagnosis {
 namespace {
 
-/// Increase of the noise of a stage by effects, in units of the nominal noise: Σ over windows of (σ_effects/σ)² − 1.
+/// Increase of the noise of a stage by effects, in units of the nominal noise: Σ over windows of
+/// (σ_effects/σ)² − 1.
 struct NoiseIncrease {
   effects::Stage stage;
   std::string on;
@@ -40,8 +41,9 @@ std::vector<NoiseIncrease> noise_increases(const Problem& problem, const Evaluat
   return all;
 }
 
-/// Further criteria of an open stage, chosen on development cases: a quarter of its nominal excess remains; or at least
-/// half of the remaining residual is a function of one variable, which means that its law differs from the answer's.
+/// Further criteria of an open stage, chosen on development cases: a quarter of its nominal excess
+/// remains; or at least half of the remaining residual is a function of one variable, which means
+/// that its law differs from the answer's.
 constexpr double quarter_excess = 1.5, quarter = 0.25;
 constexpr double profile_excess = 1, profile_share = 0.5;
 

@@ -14,20 +14,23 @@ namespace {
 
 using effects::Placed;
 
-/// Whether more than three stages, and more than a fifth of all, are open. A few effects do not cause that; chosen.
+/// Whether more than three stages, and more than a fifth of all, are open. A few effects do not
+/// cause that; chosen.
 bool is_widespread(const JudgedEstimate& found) {
   const std::size_t open = count_open_stages(found);
   return open > 3 && 5 * open > found.tolerated.size();
 }
 
-/// −2 log evidence by Laplace's approximation. It penalizes constants that the recordings determine.
+/// −2 log evidence by Laplace's approximation. It penalizes constants that the recordings
+/// determine.
 double model_cost(const AsBuilt& built) {
   const Eigen::Index n = Eigen::Index(built.uncertain.constants.size());
   const Eigen::MatrixXd constant_covariance = built.estimate.covariance.topLeftCorner(n, n);
   return built.cost - constant_covariance.ldlt().vectorD().array().log().sum();
 }
 
-/// The index of the open stage if exactly one is open. Empty for drives because all their laws act at one stage.
+/// The index of the open stage if exactly one is open. Empty for drives because all their laws act
+/// at one stage.
 std::optional<std::size_t> only_open_stage(const Problem& problem, const JudgedEstimate& found) {
   const auto open = open_stages(found);
   if (!problem.nominal.drives.empty() || count_open_stages(found) != 1) return std::nullopt;
@@ -41,7 +44,8 @@ std::vector<Placed> hints_of(const JudgedEstimate& found) {
   return hints;
 }
 
-/// The hypothesis that the robot is as described, except for effects and for constants that are never certain.
+/// The hypothesis that the robot is as described, except for effects and for constants that are
+/// never certain.
 class AsDescribed {
  public:
   explicit AsDescribed(const Problem& problem)
@@ -77,7 +81,8 @@ class AsDescribed {
     return built;
   }
 
-  /// The hypothesis of a law that the library lacks, at the only stage with a gap; empty if several stages have a gap.
+  /// The hypothesis of a law that the library lacks, at the only stage with a gap; empty if several
+  /// stages have a gap.
   std::optional<AsBuilt> unknown_law;
   std::vector<Placed> hints;
 
@@ -114,7 +119,8 @@ class WithTolerances {
         judged_(complete(search_, search_.with({}), problem_, built_)) {}
   WithTolerances(const WithTolerances&) = delete;
 
-  /// Whether the constants alone explain, and more parts of the robot deviate clearly than effects may be added.
+  /// Whether the constants alone explain, and more parts of the robot deviate clearly than effects
+  /// may be added.
   bool is_sufficient() const {
     constexpr double clear_sigmas = 3;  // standard deviations; chosen
     std::set<std::pair<std::string, effects::Stage>> places;
@@ -126,7 +132,8 @@ class WithTolerances {
     }
     return !built_.has_open_stage && places.size() > problem_.options.search.most_effects;
   }
-  /// Adds effects if the constants alone leave a stage open, or if an effect could replace constants that are far off.
+  /// Adds effects if the constants alone leave a stage open, or if an effect could replace
+  /// constants that are far off.
   AsBuilt answer(const std::vector<Placed>& hints) {
     if (built_.has_open_stage)
       complete(search_, search_.run(std::move(judged_), problem_.options.search.most_effects),
@@ -141,8 +148,9 @@ class WithTolerances {
   JudgedEstimate judged_;
 };
 
-/// The better of the first two hypotheses. All constants are estimated only if the robot as described with one effect
-/// has an open stage. More effects are added to it only if the constants are not sufficient.
+/// The better of the first two hypotheses. All constants are estimated only if the robot as
+/// described with one effect has an open stage. More effects are added to it only if the constants
+/// are not sufficient.
 AsBuilt best_of_two(const Problem& problem, AsDescribed& described) {
   described.find_first();
   if (described.explains()) return described.answer();
@@ -155,8 +163,8 @@ AsBuilt best_of_two(const Problem& problem, AsDescribed& described) {
   return model_cost(second) < model_cost(first) ? second : first;
 }
 
-/// The better of the first two hypotheses, or the unknown law if that answer has several causes, estimated constants and
-/// less evidence.
+/// The better of the first two hypotheses, or the unknown law if that answer has several causes,
+/// estimated constants and less evidence.
 AsBuilt best_of_three(const Problem& problem) {
   constexpr std::size_t few_causes = 2;  // chosen
   AsDescribed described(problem);

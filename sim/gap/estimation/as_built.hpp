@@ -2,8 +2,8 @@
 #include "sim/gap/estimation/far_off.hpp"
 #include "sim/gap/estimation/search.hpp"
 
-/// A robot as it was built: every constant deviates a little from its description, some by more than their tolerances,
-/// and the description lacks effects.
+/// A robot as it was built: every constant deviates a little from its description, some by more
+/// than their tolerances, and the description lacks effects.
 namespace sim::estimation {
 
 struct AsBuilt {
@@ -18,8 +18,9 @@ struct AsBuilt {
   std::vector<std::vector<SizedEffect>> indistinguishable;
   double cost = 0;              ///< search.hpp
   bool has_open_stage = false;  ///< search.hpp
-  /// True if a law that the library lacks, at the only stage with a gap, has more evidence than several constants and
-  /// effects. Then no cause is named, and `robot` is as described except for constants that are never certain.
+  /// True if a law that the library lacks, at the only stage with a gap, has more evidence than
+  /// several constants and effects. Then no cause is named, and `robot` is as described except for
+  /// constants that are never certain.
   bool unknown_law = false;
   bool exact = false;  ///< only constants that are never certain differ from robot.xml
 };
@@ -30,8 +31,8 @@ struct AsBuiltOptions {
   std::vector<effects::Placed> suggested = {};  ///< an answer of another method
 };
 
-/// Estimates the constants on `train`, and judges effects also on `held_out`. Throws the exceptions of
-/// residuals::Stages.
+/// Estimates the constants on `train`, and judges effects also on `held_out`. Throws the exceptions
+/// of residuals::Stages.
 AsBuilt as_built(const erp::Robot& nominal, std::span<const residuals::Episode> train,
                  std::span<const residuals::Episode> held_out, const AsBuiltOptions& options = {});
 
@@ -39,12 +40,13 @@ AsBuilt as_built(const erp::Robot& nominal, std::span<const residuals::Episode> 
 AsBuilt calibrated(const erp::Robot& nominal, std::span<const residuals::Episode> train,
                    const EstimateOptions& options = {});
 
-/// Estimates one effect on a robot that is as described except for constants that are never certain. Other effects are
-/// not searched.
+/// Estimates one effect on a robot that is as described except for constants that are never
+/// certain. Other effects are not searched.
 SizedEffect estimated(const erp::Robot& nominal, std::span<const residuals::Episode> train,
                       const effects::Placed& effect, const EstimateOptions& options = {});
 
-/// Threshold of `determined` above which the recordings determine a constant: σ < 0.63 tolerance; chosen.
+/// Threshold of `determined` above which the recordings determine a constant: σ < 0.63 tolerance;
+/// chosen.
 inline constexpr double determined_threshold = 0.6;
 
 /// How well the recordings determine a constant: 1 − (standard error/tolerance)²; 0: not at all.

@@ -6,7 +6,8 @@
 namespace sim::estimation {
 
 void list_uncertain(AsBuilt& built) {
-  // Thresholds of deviations; chosen. In tolerances: of a zero, of any other constant; of a zero also in standard errors.
+  // Thresholds of deviations; chosen. In tolerances: of a zero, of any other constant; of a zero
+  // also in standard errors.
   constexpr double zero_tolerances = 1, tolerances = 2.5, zero_sigmas = 5;
   const auto deviation = [&](std::size_t k) { return std::abs(built.estimate.point.x[k]); };
   const auto threshold = [&](std::size_t k) {
@@ -23,8 +24,8 @@ void list_uncertain(AsBuilt& built) {
 
 namespace {
 
-/// Removes the constants whose estimate is near nominal from those far off. Returns whether a constant was removed; then
-/// all constants must be estimated again.
+/// Removes the constants whose estimate is near nominal from those far off. Returns whether a
+/// constant was removed; then all constants must be estimated again.
 bool remove_near_nominal(AsBuilt& built) {
   bool removed = false;
   for (std::size_t n = built.beyond_tolerance.size(); n-- > 0;) {

@@ -54,7 +54,8 @@ JudgedEstimate complete(const Search& search, JudgedEstimate found, const Proble
 
 namespace {
 
-/// Adds `other` to the alternatives of `built` if one constant far off costs nearly the same as one effect.
+/// Adds `other` to the alternatives of `built` if one constant far off costs nearly the same as one
+/// effect.
 void add_alternatives(AsBuilt& built, const AsBuilt& other, double gain) {
   if (!are_indistinguishable(built.cost, other.cost, gain)) return;
   const auto far_constant = [](const AsBuilt& b) {
@@ -84,8 +85,8 @@ bool is_constant(const Placed& effect, const Uncertain& uncertain) {
   });
 }
 
-/// If the cheapest answer has one effect, adds the other answers with one effect as its rivals. `all`: the cheapest
-/// first.
+/// If the cheapest answer has one effect, adds the other answers with one effect as its rivals.
+/// `all`: the cheapest first.
 void add_rivals(std::vector<JudgedEstimate>& all, double cost_without) {
   const auto is_one = [](const JudgedEstimate& f) { return f.train.point.effects.size() == 1; };
   if (!is_one(all[0])) return;
@@ -101,9 +102,10 @@ bool is_valid(const AsBuilt& built) {
   return !built.has_open_stage && std::ranges::count(built.estimate.bound, true) == 0;
 }
 
-/// The cheapest answer with one more screened effect than `base` (if `screened`), or with a hint, without or with the
-/// effects of `base`. Then more effects are added while a stage is open. The two cheapest screened candidates are hints
-/// too, because a few steps do not reset constants that have moved to imitate an effect.
+/// The cheapest answer with one more screened effect than `base` (if `screened`), or with a hint,
+/// without or with the effects of `base`. Then more effects are added while a stage is open. The
+/// two cheapest screened candidates are hints too, because a few steps do not reset constants that
+/// have moved to imitate an effect.
 std::optional<JudgedEstimate> with_effect(const Search& search, const JudgedEstimate& base,
                                           std::vector<Placed> hints, std::size_t max_effects,
                                           bool screened) {

@@ -14,8 +14,8 @@ namespace {
 
 using effects::Stage;
 
-/// A number of a motor or gearbox. Tolerances are chosen: catalogues state torque constant and resistance to 5 … 10 %,
-/// and seldom state friction.
+/// A number of a motor or gearbox. Tolerances are chosen: catalogues state torque constant and
+/// resistance to 5 … 10 %, and seldom state friction.
 struct MotorNumber {
   const char* name;
   Stage stage;
@@ -24,7 +24,8 @@ struct MotorNumber {
   const char* effect;
   double far_sigma = default_far_sigma;
 };
-/// `far_sigma` of frictions and dampings. It is large because their nominal value may be near 0; chosen.
+/// `far_sigma` of frictions and dampings. It is large because their nominal value may be near 0;
+/// chosen.
 constexpr double friction_far_sigma = 500;
 constexpr MotorNumber motor_numbers[] = {
     {"resistance_ohm", Stage::motor, &erp::MotorType::resistance_ohm, 0.05, "motor_resistance"},
@@ -83,8 +84,8 @@ effects::Bounds bounds_of(const char* type) {
   return effects::parameters(effect)[0].bounds;
 }
 
-/// Ratio of an effect's first parameter to the change of a motor's number: relative, or for friction at the gearbox
-/// shaft.
+/// Ratio of an effect's first parameter to the change of a motor's number: relative, or for
+/// friction at the gearbox shaft.
 double motor_scale(const erp::MotorType& motor, double erp::MotorType::*number) {
   if (number == &erp::MotorType::gear_coulomb_Nm ||
       number == &erp::MotorType::gear_viscous_Nm_s_per_rad)
@@ -95,7 +96,8 @@ double motor_scale(const erp::MotorType& motor, double erp::MotorType::*number) 
   return 1 / (motor.*number);
 }
 
-/// Sets a number of a motor. Torque and back-EMF constant are one number (K_T i ω = K_E ω i) and are set together.
+/// Sets a number of a motor. Torque and back-EMF constant are one number (K_T i ω = K_E ω i) and
+/// are set together.
 void set_number(erp::MotorType& motor, double erp::MotorType::*number, double value) {
   if (number == &erp::MotorType::torque_Nm_per_A)
     motor.back_emf_V_s_per_rad *= value / motor.torque_Nm_per_A;
@@ -198,8 +200,9 @@ void add_joint(std::vector<Constant>& all, const erp::Joint& joint) {
   }
 }
 
-/// Adds factors of the mass with unchanged distribution, of the distance of its centre, and of the moments of inertia
-/// about the centre. They apply to every form in which robot.xml may describe a body.
+/// Adds factors of the mass with unchanged distribution, of the distance of its centre, and of the
+/// moments of inertia about the centre. They apply to every form in which robot.xml may describe a
+/// body.
 void add_body(std::vector<Constant>& all, const erp::Robot& robot, const std::string& body) {
   erp::Robot copy = robot;
   const erp::Vec3 com = erp::mass_of(body_of(copy, body)).com_m;
@@ -232,7 +235,8 @@ void add_body(std::vector<Constant>& all, const erp::Robot& robot, const std::st
 
 }  // namespace
 
-/// A step dv of a value v in series leads to v/(1 − dv/v): 1/v changes by −dv/v². Linear beyond 2 v.
+/// A step dv of a value v in series leads to v/(1 − dv/v): 1/v changes by −dv/v². Linear beyond 2
+/// v.
 double Constant::moved(double x, double step) const {
   const double current = value(x), relative = tolerance * step / current;
   if (!in_series || !(current > 0)) return x + step;

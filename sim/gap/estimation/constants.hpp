@@ -10,8 +10,9 @@
 
 /// The numbers of robot.xml that differ between robots of one design, each with its tolerance.
 ///
-/// A number is estimated as x = (value − nominal)/tolerance, with the prior x ~ N(0, 1). Numbers without an attribute in
-/// robot.xml (a sensor's gain, a moment arm, a zero) are represented as effects of the library.
+/// A number is estimated as x = (value − nominal)/tolerance, with the prior x ~ N(0, 1). Numbers
+/// without an attribute in robot.xml (a sensor's gain, a moment arm, a zero) are represented as
+/// effects of the library.
 namespace sim::estimation {
 
 /// Standard deviation of a constant that is far off, in tolerances; chosen.
@@ -33,7 +34,8 @@ struct Constant {
 
   double highest = std::numeric_limits<double>::infinity();  ///< upper bound, in the number's unit
 
-  /// True for stiffnesses. Steps are uniform in 1/value because the reciprocals of stiffnesses in series add.
+  /// True for stiffnesses. Steps are uniform in 1/value because the reciprocals of stiffnesses in
+  /// series add.
   bool in_series = false;
 
   double value(double x) const { return std::clamp(nominal + tolerance * x, lowest, highest); }
@@ -41,9 +43,10 @@ struct Constant {
   double moved(double x, double step) const;
 };
 
-/// Returns the constants of a robot that recordings may determine: motor, gearbox, spindle, tendon, routing and sensors
-/// of each actuator, then joints and bodies. Tendons that are ropes are excluded, and numbers that are 0 in robot.xml
-/// without an absolute default tolerance. Throws xml::Errors if a `<tolerance>` of robot.xml names none of the numbers.
+/// Returns the constants of a robot that recordings may determine: motor, gearbox, spindle, tendon,
+/// routing and sensors of each actuator, then joints and bodies. Tendons that are ropes are
+/// excluded, and numbers that are 0 in robot.xml without an absolute default tolerance. Throws
+/// xml::Errors if a `<tolerance>` of robot.xml names none of the numbers.
 std::vector<Constant> constants_of(const erp::Robot& robot);
 
 /// Returns the robot with the numbers nominal + tolerance·x.

@@ -55,7 +55,8 @@ double step_of(const Signal& signal) {
   return smallest;
 }
 
-/// Whether a shaft turns by more than two encoder steps per row, averaged over ten rows on both sides.
+/// Whether a shaft turns by more than two encoder steps per row, averaged over ten rows on both
+/// sides.
 class Turning {
  public:
   explicit Turning(const Episode& e) {

@@ -21,7 +21,8 @@ struct Differences {
   double stretch = 1;              ///< factor of the steps
 };
 
-/// Columns of ∂z/∂unknown from `first` on by forward differences. Each column is a list of row and slope of its entries.
+/// Columns of ∂z/∂unknown from `first` on by forward differences. Each column is a list of row and
+/// slope of its entries.
 std::vector<Pool::Numbers> columns(const ResidualVector& residuals, const Unknowns& at,
                                    const Estimate& estimate, std::size_t first,
                                    const Differences& d) {
@@ -56,8 +57,8 @@ Sparse jacobian(const ResidualVector& residuals, const Unknowns& at, const Estim
   return j;
 }
 
-/// Sets weights w_s and mean squares from the remaining residuals. `exponent`: of c_s; below 1, a stage far from noise
-/// has more weight.
+/// Sets weights w_s and mean squares from the remaining residuals. `exponent`: of c_s; below 1, a
+/// stage far from noise has more weight.
 void set_weights(const ResidualVector& residuals, Estimate& e, double exponent = 1) {
   constexpr double law_weight = 0.25;  // of a window, because the laws are approximations; chosen
   std::vector<double> square(residuals.stages()), count(square), correlation(square);
@@ -150,7 +151,8 @@ struct Descent {
   int iterations, threads;
   const Pool* pool = nullptr;
   int flat_steps = 0;  ///< number of first steps with weights of exponent 0.5
-  /// Its weights, and derivatives with respect to the constants, are used in all steps; null: they are recomputed.
+  /// Its weights, and derivatives with respect to the constants, are used in all steps; null: they
+  /// are recomputed.
   const Estimate* base = nullptr;
   bool are_current =
       false;  ///< the derivatives were computed at the estimate, or one small step before
@@ -163,10 +165,10 @@ bool is_far_from_noise(const Estimate& e) {
   return std::ranges::any_of(e.mean_square, [](double square) { return square > far_square; });
 }
 
-/// Makes steps until the cost no longer falls. If the residual is then still far above its noise, derivatives are
-/// computed over wide steps, which average over the kinks of play and friction. Derivatives are recomputed if a step
-/// gained much less than predicted (chord method: Kelley, Iterative Methods for Linear and Nonlinear Equations, 1995,
-/// ch. 5).
+/// Makes steps until the cost no longer falls. If the residual is then still far above its noise,
+/// derivatives are computed over wide steps, which average over the kinks of play and friction.
+/// Derivatives are recomputed if a step gained much less than predicted (chord method: Kelley,
+/// Iterative Methods for Linear and Nonlinear Equations, 1995, ch. 5).
 void descend(const ResidualVector& residuals, Unknowns& at, Estimate& e, Descent& d) {
   constexpr double smallest_gain = 1e-4;  // of a step, relative to the cost; chosen
   constexpr double valid_gain = 0.6;      // gain / predicted gain of valid derivatives; chosen

@@ -7,16 +7,17 @@
 #include "sim/gap/estimation/residual_vector.hpp"
 #include "sim/gap/estimation/unknowns.hpp"
 
-/// Joint estimate of all constants of a robot and of the parameters of its effects, from the stage residuals of
-/// recordings. Maximum a posteriori, by Gauss-Newton steps.
+/// Joint estimate of all constants of a robot and of the parameters of its effects, from the stage
+/// residuals of recordings. Maximum a posteriori, by Gauss-Newton steps.
 ///
 ///   min over x, p   Σ_s w_s Σ_k z_sk(x, p)² + prior(x)    z: residual_vector.hpp, prior: unknowns.hpp
 ///   w_s = 1/(4 c_s v_s)    c_s = max(1, ⟨z_s²⟩): an open stage has less weight
 ///                          v_s = 1 + 2 Σ ρ_l: number of windows per independent window
 ///                          4: chosen, because the laws are approximations
 ///
-/// x: deviations of constants in tolerances; p: parameters of effects, without a prior, within their bounds. The
-/// covariance is the inverse of the Hessian. Source: Gelman et al., Bayesian Data Analysis, ch. 4 and 17.
+/// x: deviations of constants in tolerances; p: parameters of effects, without a prior, within
+/// their bounds. The covariance is the inverse of the Hessian. Source: Gelman et al., Bayesian Data
+/// Analysis, ch. 4 and 17.
 namespace sim::estimation {
 
 struct EstimateOptions {
@@ -46,7 +47,8 @@ struct Estimate {
 
 class Estimator {
  public:
-  /// `nominal` and `episodes` must outlive the estimator. Throws the exceptions of residuals::Stages.
+  /// `nominal` and `episodes` must outlive the estimator. Throws the exceptions of
+  /// residuals::Stages.
   Estimator(const erp::Robot& nominal, std::span<const residuals::Episode> episodes,
             const EstimateOptions& options = {});
 
@@ -56,8 +58,8 @@ class Estimator {
   Estimate run(const Uncertain& uncertain, Point start) const;
   /// Estimates from a starting point.
   Estimate continued(const Uncertain& uncertain, Estimate base) const;
-  /// Estimates `base` with an additional effect by a few steps on one thread. Weights, and derivatives with respect to
-  /// the constants, are those of `base`.
+  /// Estimates `base` with an additional effect by a few steps on one thread. Weights, and
+  /// derivatives with respect to the constants, are those of `base`.
   Estimate candidate(const Uncertain& uncertain, const Estimate& base, Point start,
                      int iterations) const;
 

@@ -13,7 +13,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Set = std::vector<std::size_t>;
 
-/// The minimum of the linear model for a set of constants that are far off. cost: −2 log of its evidence.
+/// The minimum of the linear model for a set of constants that are far off. cost: −2 log of its
+/// evidence.
 struct Minimum {
   VectorXd x;
   MatrixXd covariance;
@@ -50,8 +51,9 @@ class LinearModel {
     return m;
   }
 
-  /// Cost with an additional constant in the set. Subtraction of δ x_k² from a quadratic form lowers its minimum by
-  /// δ x_k²/(1 − δ C_kk) and multiplies its determinant by 1 − δ C_kk (Sherman and Morrison).
+  /// Cost with an additional constant in the set. Subtraction of δ x_k² from a quadratic form
+  /// lowers its minimum by δ x_k²/(1 − δ C_kk) and multiplies its determinant by 1 − δ C_kk
+  /// (Sherman and Morrison).
   double with(const Minimum& m, std::size_t k) const {
     const double precision_change = 1 - far_precision(constant(k)), x = m.x[Index(k)];
     const double remaining = 1 - precision_change * m.covariance(Index(k), Index(k));
@@ -75,7 +77,8 @@ class LinearModel {
   MatrixXd hessian_;
 };
 
-/// The constant whose addition gives the lowest cost, and that cost; infinite if no constant can be added.
+/// The constant whose addition gives the lowest cost, and that cost; infinite if no constant can be
+/// added.
 std::pair<std::size_t, double> cheapest(const LinearModel& model, const Minimum& m,
                                         const Set& far) {
   std::pair<std::size_t, double> best{0, std::numeric_limits<double>::infinity()};

@@ -3,14 +3,17 @@
 
 /// Selects the few constants that are far off, while all others are within their tolerances:
 ///
-///   min over F   min over x [data(x) + Σ_{k not in F} x_k² + Σ_{k in F} (x_k²/far_sigma_k² + price_k)] + log det A
+///   min over F   min over x [data(x) + Σ_{k not in F} x_k² + Σ_{k in F} (x_k²/s_k² + price_k)]
+///                + log det A
 ///
-/// F: set of constants far off; data: linear model of an estimate; A: half the Hessian of the bracket. log det A is
-/// Laplace's approximation of the evidence: a wider prior of a constant that the data hardly determine gains nothing.
+/// F: set of constants far off; s_k: far_sigma; data: linear model of an estimate; A: half the
+/// Hessian of the bracket. log det A is Laplace's approximation of the evidence: a wider prior of a
+/// constant that the data hardly determine gains nothing.
 ///
-/// Recordings often determine only a product of two constants. A normal prior then divides the deviation between them,
-/// and both are wrong. Constants are added to F one at a time while the cost falls. Then a constant is replaced if
-/// another costs less, and removed if the cost without it is lower.
+/// Recordings often determine only a product of two constants. A normal prior then divides the
+/// deviation between them, and both are wrong. Constants are added to F one at a time while the
+/// cost falls. Then a constant is replaced if another costs less, and removed if the cost without
+/// it is lower.
 /// Source: spike and slab, George and McCulloch 1993; here the most probable set by greedy search.
 namespace sim::estimation {
 
@@ -29,8 +32,9 @@ struct FarOff {
 /// The deviation as the effect of the library that represents it.
 SizedEffect as_effect(const Constant& constant, const Deviation& deviation);
 
-/// Whether a constant that was estimated with the wide prior may stay in F. Without it F costs less if
-/// x² (1 − 1/far_sigma²) < price − log far_sigma², because log det A falls by at most log far_sigma².
+/// Whether a constant that was estimated with the wide prior may stay in F. Without it F costs less
+/// if x² (1 − 1/far_sigma²) < price − log far_sigma², because log det A falls by at most log
+/// far_sigma².
 bool is_worth_far(const Constant& constant, double x);
 
 FarOff far_off(const Uncertain& uncertain, const Estimate& estimate);

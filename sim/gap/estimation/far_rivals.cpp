@@ -9,8 +9,8 @@ namespace {
 
 using Eigen::Index;
 
-/// The similarity of two constants' sensitivities: the cosine between them, and the number of tolerances of `other` that
-/// change the residuals as much as one tolerance of `k`.
+/// The similarity of two constants' sensitivities: the cosine between them, and the number of
+/// tolerances of `other` that change the residuals as much as one tolerance of `k`.
 struct Similarity {
   double cosine = 0, ratio = 0;
 };
@@ -23,7 +23,8 @@ Similarity similarity(const Estimate& e, std::size_t k, std::size_t other) {
   return length > 0 ? Similarity{dot / length, dot / square} : Similarity{};
 }
 
-/// The constants within their tolerances whose sensitivity is most similar to that of a constant far off.
+/// The constants within their tolerances whose sensitivity is most similar to that of a constant
+/// far off.
 std::vector<std::size_t> most_similar(const AsBuilt& built, std::size_t k) {
   constexpr double smallest_cosine = 0.8;  // chosen
   constexpr std::size_t max_count = 2;     // chosen
@@ -40,7 +41,8 @@ std::vector<std::size_t> most_similar(const AsBuilt& built, std::size_t k) {
   return constants;
 }
 
-/// The estimate with constant k reset to its nominal value, and `other` moved to change the residuals in the same way.
+/// The estimate with constant k reset to its nominal value, and `other` moved to change the
+/// residuals in the same way.
 Point exchanged(const AsBuilt& built, std::size_t k, std::size_t other) {
   constexpr double part = 0.5;  // largest fraction of the distance to a bound; chosen
   const Constant& c = built.uncertain.constants[other];
@@ -65,8 +67,8 @@ void add_alternative(std::vector<SizedEffect>& alternatives, SizedEffect one) {
   alternatives.push_back(std::move(one));
 }
 
-/// Estimates `other` as far off instead of the n-th constant far off. Stores the cheaper of the two. The other one
-/// becomes an alternative if it costs little more.
+/// Estimates `other` as far off instead of the n-th constant far off. Stores the cheaper of the
+/// two. The other one becomes an alternative if it costs little more.
 void compare(const Search& search, const Problem& problem, std::size_t n, std::size_t other,
              double gain, JudgedEstimate& found, AsBuilt& built) {
   const std::size_t k = built.beyond_tolerance[n];

@@ -25,7 +25,8 @@ std::size_t clip_to_supply(const erp::MotorType& motor, Signal& voltage_V) {
   return clipped;
 }
 
-/// Sets voltage and current to NaN around rows at which the driver limits the current. Returns the number of rows.
+/// Sets voltage and current to NaN around rows at which the driver limits the current. Returns the
+/// number of rows.
 std::size_t remove_limited(const erp::MotorType& motor, double period_s, ActuatorSignals& s) {
   if (s.current_A.empty() || s.shaft_rad.empty() || s.voltage_V.empty()) return 0;
   const double back_emf = motor.back_emf_V_s_per_rad * motor.gear_ratio;

@@ -28,8 +28,8 @@ double reverse_fraction(std::span<const residuals::Episode> recordings, std::siz
   return std::min(forwards, backwards) / std::max(forwards + backwards, 1e-12);
 }
 
-/// Whether an effect acts on a sensor that a drive lacks: a current that is commanded, or a tension without a torque
-/// sensor.
+/// Whether an effect acts on a sensor that a drive lacks: a current that is commanded, or a tension
+/// without a torque sensor.
 bool acts_on_missing_sensor(const Placed& placed, const erp::Robot& robot, std::size_t actuator,
                             std::span<const residuals::Episode> recordings) {
   const auto sense = effects::sense_of(placed.effect);

@@ -15,7 +15,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Judged windows of one actuator's gearbox: their indices in z, episodes, and rows in the episodes.
+/// Judged windows of one actuator's gearbox: their indices in z, episodes, and rows in the
+/// episodes.
 struct Windows {
   std::vector<Index> z_index = {};
   std::vector<std::size_t> episode = {}, row = {};
@@ -49,8 +50,8 @@ struct Harmonics {
   void next() {
     for (std::size_t k = 0; k < power.size(); ++k) power[k] *= once[k], half_power[k] *= half[k];
   }
-  /// Factor by which the mean over a sampling period at row k attenuates n periods per turn: sin(nφ)/(nφ), φ: half the
-  /// travel.
+  /// Factor by which the mean over a sampling period at row k attenuates n periods per turn:
+  /// sin(nφ)/(nφ), φ: half the travel.
   double attenuation(std::size_t k, int n) const {
     const double swept = n * half_travel[k];
     return std::abs(swept) > 1e-6 ? half_power[k].imag() / swept : 1;

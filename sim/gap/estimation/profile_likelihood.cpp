@@ -7,8 +7,8 @@
 namespace sim::estimation {
 namespace {
 
-/// The distance d from the estimate of unknown k towards `bound` at which the cost, −2 log likelihood, has risen by the
-/// 95 % quantile of χ² with one degree of freedom.
+/// The distance d from the estimate of unknown k towards `bound` at which the cost, −2 log
+/// likelihood, has risen by the 95 % quantile of χ² with one degree of freedom.
 double half_interval(const ResidualVector& residuals, const Unknowns& at, const Estimate& e,
                      std::size_t k, double bound) {
   constexpr double rise = 3.84;  // 95 % quantile

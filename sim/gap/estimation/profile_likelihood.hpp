@@ -3,8 +3,9 @@
 
 namespace sim::estimation {
 
-/// Sets the variance of each effect parameter to which the residuals are insensitive at the estimate. The linear standard
-/// deviation of such a parameter exceeds the range of its bounds; an example is the angle of a stop.
+/// Sets the variance of each effect parameter to which the residuals are insensitive at the
+/// estimate. The linear standard deviation of such a parameter exceeds the range of its bounds; an
+/// example is the angle of a stop.
 ///
 ///   σ = max(d₋, d₊)/1.96      d: distance in each direction at which the cost has risen by 3.84
 ///

@@ -169,8 +169,9 @@ Explained ResidualVector::explain(const erp::Robot& robot, const Explained& base
 
 namespace {
 
-/// A residual in units of its noise. A residual within a friction band has no sign. It gets the sign of the nominal
-/// robot's residual, because a sign that differs between robots would be a jump.
+/// A residual in units of its noise. A residual within a friction band has no sign. It gets the
+/// sign of the nominal robot's residual, because a sign that differs between robots would be a
+/// jump.
 double with_fixed_sign(const residuals::Residual& nominal, const residuals::Residual& r,
                        std::size_t window, double floor) {
   const double z = residuals::normalized(r, window, floor), reference = nominal.value[window];

@@ -19,14 +19,16 @@ struct Block {
   Eigen::Index first, count;
 };
 
-/// The stage residuals of all episodes in units of their noise, z = r/σ, as one vector. z is 0 at windows that cannot be
-/// judged with the nominal robot. If a window cannot be judged with another robot, z is the nominal residual.
+/// The stage residuals of all episodes in units of their noise, z = r/σ, as one vector. z is 0 at
+/// windows that cannot be judged with the nominal robot. If a window cannot be judged with another
+/// robot, z is the nominal residual.
 ///
 ///   σ² = ⟨(r(y + n) − r(y))²⟩      y: signals, n: noise of the sensors' data sheets
 ///
-/// σ is the noise floor of the evaluated robot, not of the nominal one. With the nominal floor, a constant that multiplies
-/// a noisy signal is estimated too small (errors in variables), and a constant that scales an equation down lowers its
-/// residual. The ratio to the nominal floor is one number for each stage, computed on the first part of all episodes.
+/// σ is the noise floor of the evaluated robot, not of the nominal one. With the nominal floor, a
+/// constant that multiplies a noisy signal is estimated too small (errors in variables), and a
+/// constant that scales an equation down lowers its residual. The ratio to the nominal floor is one
+/// number for each stage, computed on the first part of all episodes.
 class ResidualVector {
  public:
   /// `nominal` and `episodes` must outlive this object.
@@ -58,19 +60,22 @@ class ResidualVector {
   std::vector<residuals::Episode> disturbed_;
   std::vector<residuals::Explanation> nominal_;
   std::vector<Block> blocks_;
-  /// Of the nominal robot: noise floors of whole episodes, one per block, and of the first parts, one per stage.
+  /// Of the nominal robot: noise floors of whole episodes, one per block, and of the first parts,
+  /// one per stage.
   std::vector<double> floors_, first_floors_;
   std::vector<double> independent_;  ///< one per stage
   std::size_t stages_ = 0;
   Eigen::Index size_ = 0;
 };
 
-/// Number of values of a series per independent value, 1 + 2 Σ ρ_l. Values that are not judged are 0.
+/// Number of values of a series per independent value, 1 + 2 Σ ρ_l. Values that are not judged are
+/// 0.
 /// Source: effective sample size, Geyer 1992.
 double correlation_length(std::span<const double> series);
 
-/// The change of z by a tiny step of an unknown, without windows that jump. A window that starts or stops to be judged
-/// changes by more than its noise, even for the smallest step, and would outweigh all others in a derivative.
+/// The change of z by a tiny step of an unknown, without windows that jump. A window that starts or
+/// stops to be judged changes by more than its noise, even for the smallest step, and would
+/// outweigh all others in a derivative.
 Eigen::VectorXd tiny_change(const Eigen::VectorXd& after, const Eigen::VectorXd& before);
 
 }  // namespace sim::estimation

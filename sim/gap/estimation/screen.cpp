@@ -57,9 +57,9 @@ bool affects_open_stage(const ResidualVector& residuals, const MatrixXd& change,
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-/// The step of the sizes to the minimum of stepᵀ G step/2 − slopeᵀ step. A size is not changed if the unknowns that are
-/// already estimated have the same effect, or if it would leave its bounds. `without_response`: G without the response
-/// of the estimated unknowns.
+/// The step of the sizes to the minimum of stepᵀ G step/2 − slopeᵀ step. A size is not changed if
+/// the unknowns that are already estimated have the same effect, or if it would leave its bounds.
+/// `without_response`: G without the response of the estimated unknowns.
 VectorXd step_within(const MatrixXd& g, const MatrixXd& without_response, const VectorXd& slope,
                      const StepBounds& bounds) {
   constexpr double same_effect = 1e-8, ridge = 1e-6;  // relative; chosen
@@ -79,7 +79,8 @@ VectorXd step_within(const MatrixXd& g, const MatrixXd& without_response, const 
 
 }  // namespace
 
-/// Cost by the linear model of `base` after a step of its unknowns (`moved`) and a change of z by an effect (`changed`).
+/// Cost by the linear model of `base` after a step of its unknowns (`moved`) and a change of z by
+/// an effect (`changed`).
 double Screen::cost_at(const Estimate& base, const RemainingResidual& remaining,
                        const VectorXd& changed, const VectorXd& moved) const {
   Point after = base.point;
@@ -90,7 +91,8 @@ double Screen::cost_at(const Estimate& base, const RemainingResidual& remaining,
          prior_cost(uncertain_, after);
 }
 
-/// The best of 1, 2, 4 and 8 times a step, and its gain. The quadratic model overweights windows that the cost limits.
+/// The best of 1, 2, 4 and 8 times a step, and its gain. The quadratic model overweights windows
+/// that the cost limits.
 std::pair<double, VectorXd> Screen::best_multiple(const Basis& basis, const Sensitivities& all,
                                                   const MatrixXd& shared, const VectorXd& step,
                                                   const StepBounds& bounds) const {

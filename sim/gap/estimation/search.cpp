@@ -9,17 +9,20 @@ namespace sim::estimation {
 namespace {
 
 constexpr double smallest_removed_fraction = 0.3;  // of a stage's excess, by an effect; chosen
-/// −2 log of the odds that a robot has an effect; chosen: like the price of a constant far off (unknowns.hpp).
+/// −2 log of the odds that a robot has an effect; chosen: like the price of a constant far off
+/// (unknowns.hpp).
 constexpr double effect_price = 9;
 
-/// The excess above which a stage is open. It grows with the nominal excess because laws are approximations; chosen.
+/// The excess above which a stage is open. It grows with the nominal excess because laws are
+/// approximations; chosen.
 double tolerated(double nominal_excess) { return std::clamp(0.002 * nominal_excess, 0.6, 2.0); }
 
 bool is_same(const effects::Placed& a, const effects::Placed& b) {
   return a.on == b.on && a.effect.index() == b.effect.index();
 }
 
-/// Whether two effects are at one place. Several effects at one place can approximate nearly any law.
+/// Whether two effects are at one place. Several effects at one place can approximate nearly any
+/// law.
 bool are_at_one_place(const effects::Placed& a, const effects::Placed& b) {
   return a.on == b.on && effects::about(a.effect).stage == effects::about(b.effect).stage;
 }
@@ -157,8 +160,8 @@ JudgedEstimate Search::pruned(JudgedEstimate found) const {
 
 namespace {
 
-/// Whether the estimate of an effect is compatible with a robot without it: the intervals of all its fitted parameters
-/// contain their neutral values.
+/// Whether the estimate of an effect is compatible with a robot without it: the intervals of all
+/// its fitted parameters contain their neutral values.
 bool may_be_neutral(const SizedEffect& estimated) {
   constexpr double half_interval_sigmas = 1.96;  // of 95 %
   effects::AnyEffect effect = estimated.effect.effect;
@@ -197,8 +200,8 @@ JudgedEstimate Search::without_doubtful(JudgedEstimate found) const {
   return found;
 }
 
-/// Removes or replaces effects that were added before the last one. Such an effect may have been a compromise between
-/// two effects, or may have become unnecessary.
+/// Removes or replaces effects that were added before the last one. Such an effect may have been a
+/// compromise between two effects, or may have become unnecessary.
 JudgedEstimate Search::exchanged(JudgedEstimate found) const {
   constexpr double improvement = 0.98;  // largest cost / previous cost; chosen
   for (std::size_t k = 0; k + 1 < found.train.point.effects.size(); ++k) {

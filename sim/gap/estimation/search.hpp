@@ -7,8 +7,9 @@
 
 #include "sim/gap/estimation/screen.hpp"
 
-/// Searches the effects of a robot in addition to its constants. While a stage is open, candidates are screened, the best
-/// ones are estimated jointly with the constants, and the one with the lowest cost is added; at most one at each place.
+/// Searches the effects of a robot in addition to its constants. While a stage is open, candidates
+/// are screened, the best ones are estimated jointly with the constants, and the one with the
+/// lowest cost is added; at most one at each place.
 ///
 ///   cost = misfit (remaining_residual.hpp, training and held-out recordings) + prior of the constants
 ///          + price of each effect
@@ -93,7 +94,8 @@ class Search {
 
 /// Whether two answers cost nearly the same. `gain`: decrease of the cost by the better one.
 bool are_indistinguishable(double cost, double other, double gain);
-/// The effects that could replace one of the effects of `found` at little more cost, the cheapest first.
+/// The effects that could replace one of the effects of `found` at little more cost, the cheapest
+/// first.
 std::vector<SizedEffect> indistinguishable(const JudgedEstimate& found, std::size_t effect);
 
 /// For each stage, whether its excess in training or held-out recordings is above `tolerated`.

@@ -36,8 +36,8 @@ Perturbed perturbed(const Placed& shape, std::size_t size, double by, const Chan
   return {by, changed_by(placed)};
 }
 
-/// A perturbation of a size that changes z by a small part of its noise, independent of the parameter's bounds. `by`:
-/// the initial perturbation. It is used if it does not change z.
+/// A perturbation of a size that changes z by a small part of its noise, independent of the
+/// parameter's bounds. `by`: the initial perturbation. It is used if it does not change z.
 Perturbed fitting_perturbation(const Placed& shape, std::size_t size, double by,
                                const ChangedBy& changed_by) {
   constexpr double desired_rms = 0.003, min_scale = 1e-6, max_scale = 100;  // chosen

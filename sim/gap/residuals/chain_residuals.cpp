@@ -19,7 +19,8 @@ struct Chain {
   const Bump& bump;
 };
 
-/// V − R i − L di/dt over the two periods around each row. By the motor's law it equals K_E N (θ_k+1 − θ_k−1)/2T.
+/// V − R i − L di/dt over the two periods around each row. By the motor's law it equals K_E N
+/// (θ_k+1 − θ_k−1)/2T.
 Signal induced_V(const Chain& c) {
   const ChainTrace& t = c.trace;
   const double a = t.current_averaged;
@@ -53,8 +54,8 @@ std::vector<double> motor_V(const Chain& c, std::span<const std::size_t> rows) {
   return value;
 }
 
-/// Sets the values of the gearbox's residual. In windows in which the shaft reverses, the value is the part beyond the
-/// uncertainty.
+/// Sets the values of the gearbox's residual. In windows in which the shaft reverses, the value is
+/// the part beyond the uncertainty.
 void add_gearbox(const Chain& c, std::span<const std::size_t> rows, Residual& residual) {
   const double viscous =
       c.motor.rotor_viscous_Nm_s_per_rad * c.motor.gear_ratio * c.motor.gear_ratio;

@@ -88,8 +88,7 @@ class Tracer {
     s.path_m = m_.initial_length_m;
     return s;
   }
-  /// Adds the sample of row k. Missing values are those of the row before, because effects with state need a value at
-  /// every row.
+  /// Adds the sample of row k. Missing values are those of the row before: effects need values.
   effects::ChainSample& sample(std::size_t k) {
     samples_.push_back(samples_.empty() ? initial_sample() : samples_.back());
     effects::ChainSample& s = samples_.back();
@@ -111,7 +110,7 @@ class Tracer {
     s.pushes = pushes_;
     return s;
   }
-  /// ⟨i²⟩ over the period that ends at row k. Within it the current falls linearly as the motor accelerates:
+  /// ⟨i²⟩ over the period that ends at row k. The current falls linearly as the motor accelerates:
   ///   i = i_k + (K_E N/R)(ω_k − ω),  ⟨i²⟩ = (i_k + Δ/2)² + Δ²/12,  Δ = (K_E N/R)(ω_k − ω_k−1)
   double square_A2(std::size_t k) const {
     if (k == 0 || out_.current_A.empty() || out_.speed_rad_per_s.empty()) return 0;
@@ -160,15 +159,15 @@ class Tracer {
     out_.spring_N[k] = pushes_ ? force : taut_fraction(s.stretch_m, rate) * std::max(0.0, force);
     out_.path_slope[k] = path.slope;
   }
-  /// The fraction of the period around a sample during which a tendon is taut. Without it the damping force of a tendon
-  /// that becomes taut would jump between two samples, and with it the derivatives with respect to constants.
+  /// The fraction of the period around a sample during which a tendon is taut. Without it the
+  /// damping force, and the derivatives with respect to constants, would jump between two samples.
   double taut_fraction(double stretch_m, double rate_m_per_s) const {
     const double changes_m = std::abs(rate_m_per_s) * period_s_;
     if (std::isnan(rate_m_per_s)) return nan;
     return changes_m > 0 ? std::clamp(0.5 + stretch_m / changes_m, 0.0, 1.0) : stretch_m > 0;
   }
 
-  /// i as measured. Without a current sensor, the mean of i around the row by the motor's law, delayed by L/R:
+  /// i as measured. Without a sensor, the mean around the row by the motor's law, delayed by L/R:
   ///   i = (V − K_E N ω)/R
   double current_A(std::size_t k) const {
     if (out_.current_measured) return out_.current_A[k];
@@ -181,7 +180,7 @@ class Tracer {
     return (mean_V - m_.motor.back_emf_V_s_per_rad * m_.motor.gear_ratio * delayed_speed) /
            out_.resistance_ohm[k];
   }
-  /// ī over the two periods around row k: the mean current that causes the change of their mean speeds
+  /// ī over the two periods around row k: the current that causes the change of their mean speeds
   /// (held_voltage.hpp). A current that is recorded as a mean around the row is not changed.
   double mean_current_A(std::size_t k) const {
     const double a = out_.current_averaged;
@@ -219,12 +218,12 @@ class Tracer {
     }
   }
 
-  /// The mean sign s of the shaft's speed over the period that ends at each row, −1 … 1. The speed changes linearly
-  /// within a period. Its change is computed from the periods before (v₋) and after (v₊):
+  /// The mean sign s of the shaft's speed over the period that ends at each row, −1 … 1. The speed
+  /// changes linearly; its change is computed from the periods before (v₋) and after (v₊):
   ///
   ///   v = Δθ/T,  Δv = √(((v₊ − v₋)/2)² + (step/T)²),  s = 2 v/Δv within ±1
   ///
-  /// Δθ: travel in the period T; step: uncertainty of the encoder. If it is too large, v is the smoothed speed.
+  /// Δθ: travel in the period T; step: uncertainty of the encoder. If it is large, v is smoothed.
   std::vector<double> directions() const {
     const Signal& theta = out_.shaft_rad;
     constexpr double small_fraction = 0.02;  // of the rms speed; chosen
@@ -244,8 +243,8 @@ class Tracer {
     }
     return signs;
   }
-  /// The specified step of the encoder, or the smallest step in the recording if that is larger. Without a specified
-  /// step, the noise of the angle.
+  /// The specified step of the encoder, or the smallest step in the recording if that is larger.
+  /// Without a specified step, the noise of the angle.
   double angle_uncertainty_rad() const {
     if (!(m_.shaft_step_rad > 0)) return noise_of(out_.shaft_rad);
     double smallest = std::numeric_limits<double>::infinity();

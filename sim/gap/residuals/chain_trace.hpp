@@ -3,8 +3,9 @@
 #include "sim/model/actuator/tendon.hpp"
 #include "sim/model/effects/acting.hpp"
 
-/// The quantities of one actuator's chain at the rows of a recording, computed with the effects of a robot: first the
-/// sensors' effects are inverted, then the quantities of each stage are computed from the measurements at its ends.
+/// The quantities of one actuator's chain at the rows of a recording, computed with the effects of
+/// a robot: first the sensors' effects are inverted, then the quantities of each stage are computed
+/// from the measurements at its ends.
 namespace sim::residuals {
 
 struct ChainModel {
@@ -33,8 +34,8 @@ struct ChainTrace {
   double current_averaged = 0;  ///< 0: current at the row; 1: mean current around the row
 };
 
-/// Computes the trace of one chain. `path`: smoothed. `other`: a trace of the same rows by another model, or null; its
-/// speeds are reused if the angles are equal.
+/// Computes the trace of one chain. `path`: smoothed. `other`: a trace of the same rows by another
+/// model, or null; its speeds are reused if the angles are equal.
 ChainTrace trace(ChainModel model, const ActuatorSignals& measured, const PathTrace& path,
                  double period_s, double speed_half_width_s, const ChainTrace* other = nullptr);
 

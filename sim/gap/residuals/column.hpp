@@ -18,10 +18,12 @@ struct Column {
   bool operator==(const Column&) const = default;
 };
 
-/// Four columns for each actuator, then one for each joint. Columns that a recording lacks are included.
+/// Four columns for each actuator, then one for each joint. Columns that a recording lacks are
+/// included.
 std::vector<Column> all_columns(std::size_t actuators, std::size_t joints);
 
-/// Example: "flexor.tension_N". For a drive (drives.hpp): the names of its control, positions and torque.
+/// Example: "flexor.tension_N". For a drive (drives.hpp): the names of its control, positions and
+/// torque.
 std::string name_of(const Column& column, const Episode& episode, const erp::Robot& robot);
 
 }  // namespace sim::residuals

@@ -26,7 +26,8 @@ struct Grid {
   std::size_t repeated = 0, missing = 0;
 };
 
-/// The probable unit of times that are not in seconds, and the number of units in a second, from the period.
+/// The probable unit of times that are not in seconds, and the number of units in a second, from
+/// the period.
 std::pair<const char*, double> unit_of_time(double period) {
   if (period < 500) return {"milliseconds", 1e3};
   if (period < 5e5) return {"microseconds", 1e6};

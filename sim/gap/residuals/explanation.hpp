@@ -8,8 +8,8 @@
 #include "sim/gap/residuals/skeletal.hpp"
 #include "sim/model/effects/effect.hpp"
 
-/// An episode evaluated with a robot and its effects. Explanations share equal parts. After a change of one effect only
-/// the affected parts are recomputed.
+/// An episode evaluated with a robot and its effects. Explanations share equal parts. After a
+/// change of one effect only the affected parts are recomputed.
 namespace sim::residuals {
 
 /// One stage's residual at the windows of an episode; NaN: not available there.
@@ -20,8 +20,8 @@ struct Residual {
   std::vector<double> value;
   /// rms of the input of the stage: voltage, motor torque, tension or torque of the tendons
   double driven_by = 0;
-  /// For each window, the torque that friction at rest or a stop (infinity) may balance. `value` is the part of the
-  /// residual beyond this band. Empty: 0 everywhere.
+  /// For each window, the torque that friction at rest or a stop (infinity) may balance. `value` is
+  /// the part of the residual beyond this band. Empty: 0 everywhere.
   std::vector<double> band = {};
 };
 

@@ -7,11 +7,13 @@
 namespace sim::residuals {
 namespace {
 
-/// Every result is linear in six quantities: i_0, V_0, V_1, V_2, ω_0 and τ. A row holds its coefficients.
+/// Every result is linear in six quantities: i_0, V_0, V_1, V_2, ω_0 and τ. A row holds its
+/// coefficients.
 using Row = Eigen::Matrix<double, 1, 6>;
 enum Cause { from_i, from_V0, from_V1, from_V2, from_speed, from_load };
 
-/// The state at a row. weighted_speed: ∫ e^(−(t_k − t)R/L) ω dt over the period that ends at the row.
+/// The state at a row. weighted_speed: ∫ e^(−(t_k − t)R/L) ω dt over the period that ends at the
+/// row.
 struct State {
   Row current = Row::Zero(), speed = Row::Zero(), angle = Row::Zero(), weighted_speed = Row::Zero();
 };
@@ -71,8 +73,9 @@ TwoPeriods two_periods(const erp::MotorType& m, double period_s, double delay_s)
               end = motor.after(middle, from_V1, from_V2);
   TwoPeriods two;
 
-  // Each current gives a weighted mean of K_E N ω: p V_k−1 + (1 − p) V_k − R (i_k − d i_k−1)/(1 − d), with d = decay and
-  // p = previous_weight. Two of these means determine the speed over both periods, and thus its unweighted mean.
+  // Each current gives a weighted mean of K_E N ω: p V_k−1 + (1 − p) V_k − R (i_k − d i_k−1)/(1 −
+  // d), with d = decay and p = previous_weight. Two of these means determine the speed over both
+  // periods, and thus its unweighted mean.
   Eigen::Matrix<double, 2, 6> means;
   means << motor.mean_speed(middle), motor.mean_speed(end);
   const Row mean_speed = end.angle / (2 * period_s);
@@ -87,7 +90,8 @@ TwoPeriods two_periods(const erp::MotorType& m, double period_s, double delay_s)
   two.amperes = {-(weights[0] * decay) / (1 - decay) - remainder[from_i] / m.resistance_ohm,
                  (weights[0] - weights[1] * decay) / (1 - decay), weights[1] / (1 - decay)};
 
-  // Two currents and two angles are four equations; given i_0 and V_0, the unknowns are V_1, V_2, ω_0 and τ.
+  // Two currents and two angles are four equations; given i_0 and V_0, the unknowns are V_1, V_2,
+  // ω_0 and τ.
   Eigen::Matrix<double, 4, 6> measured;
   measured << middle.current, end.current, middle.angle, end.angle - middle.angle;
   const Eigen::RowVector4d load = measured.rightCols<4>().inverse().row(3);

@@ -39,12 +39,13 @@ bool near_stop(const JointReading& reading, const erp::Joint& joint, double spee
 
 }  // namespace
 
-/// Flexible links have unmeasured joints. The deflection δ of each is simulated with its spring k and damper D, driven
-/// by the measured motion q of the other joints:
+/// Flexible links have unmeasured joints. The deflection δ of each is simulated with its spring k
+/// and damper D, driven by the measured motion q of the other joints:
 ///
 ///   I δ̈ = −(τ(q, q̇, q̈, δ, δ̇, 0) + k δ + D δ̇)          τ: inverse dynamics, by the trapezoidal rule
 ///
-/// The measured motion is a mean under windows. Thus the result is a mean and is not averaged again.
+/// The measured motion is a mean under windows. Thus the result is a mean and is not averaged
+/// again.
 std::vector<Stages::Flexion> Stages::flexions(const Episode& episode, JointTrace& trace) {
   std::vector<Flexion> flexions;
   const Bump bump(windows_.half_width_s, episode.period_s);
@@ -133,8 +134,8 @@ JointTrace Stages::joint_trace(const Episode& episode, std::span<const std::size
   return trace;
 }
 
-/// Adds the torques of a joint's friction and springs along its coordinates. Returns false if a ball joint rests or is
-/// at its stop.
+/// Adds the torques of a joint's friction and springs along its coordinates. Returns false if a
+/// ball joint rests or is at its stop.
 bool Stages::add_joint_torque(std::size_t j, const JointReading& reading,
                               Eigen::Ref<Eigen::VectorXd> torque) const {
   const erp::Joint& joint = bones_.joint_list()[j];
@@ -178,8 +179,8 @@ Stages::Mobility Stages::mobility(const JointTrace& joints, std::size_t j, const
   return is_still && std::abs(mean) < resting_rad_per_s ? Mobility::rests : Mobility::mixed;
 }
 
-/// The part of a revolute joint's balance that neither friction at rest nor a stop can explain, and the band of torque
-/// that these may balance.
+/// The part of a revolute joint's balance that neither friction at rest nor a stop can explain, and
+/// the band of torque that these may balance.
 std::pair<double, double> Stages::remaining_torque(const JointTrace& joints, std::size_t j,
                                                    const Bump& bump, std::size_t row,
                                                    double torque_Nm) const {

@@ -8,8 +8,8 @@
 ///   the sensor turns in one direction    q = s ± w/2: the joint drives the sensor
 ///   the sensor rests or reverses         |q − s| ≤ w/2: the joint crosses the play, and q is not measured
 ///
-/// Source: see sim/model/effects/joint/play.hpp. Ignores: motion within the play while the sensor rests, unless it can
-/// be estimated from the tendons (joint_search.cpp).
+/// Source: see sim/model/effects/joint/play.hpp. Ignores: motion within the play while the sensor
+/// rests, unless it can be estimated from the tendons (joint_search.cpp).
 namespace sim::residuals {
 
 struct LooseJoint {

@@ -15,8 +15,8 @@ struct Measured {
   std::conditional_t<std::is_const_v<E>, const Signal, Signal>* signal;
 };
 
-/// All measured signals, including empty ones, in the same order for every recording of a robot. E: Episode or const
-/// Episode.
+/// All measured signals, including empty ones, in the same order for every recording of a robot. E:
+/// Episode or const Episode.
 template <class E>
 std::vector<Measured<E>> measured(E& e, const erp::Robot& robot) {
   std::vector<Measured<E>> signals;

@@ -28,11 +28,13 @@ double coarse_step(const std::vector<effects::Placed>& all, const char* type,
   return 0;
 }
 
-/// Adds another realization of a sensor's noise and quantization error, with a random shift u of its steps:
+/// Adds another realization of a sensor's noise and quantization error, with a random shift u of
+/// its steps:
 ///
 ///   e = step (⌊(x + n)/step + u⌉ − u) − x,   x: the signal smoothed, n ~ N(0, rms²), u ~ U(0, 1)
 ///
-/// If the noise is smaller than a step, the error is not white noise: it is constant while the signal is constant.
+/// If the noise is smaller than a step, the error is not white noise: it is constant while the
+/// signal is constant.
 void requantize(Signal& signal, double noise_rms, double step, Noise& noise) {
   if (!(step > 0)) return disturb(signal, noise_rms, noise);
   constexpr std::size_t reach = 12;  // rows to each side of the smoothing window; chosen
@@ -74,7 +76,8 @@ void disturb_times(Episode& e, Noise& noise) {
   }
 }
 
-/// Applies the deviations that no data sheet excludes: delayed tensions and a gain error of currents.
+/// Applies the deviations that no data sheet excludes: delayed tensions and a gain error of
+/// currents.
 void apply_unspecified_errors(Episode& e) {
   for (ActuatorSignals& s : e.actuators) {
     delay(s.tension_N);
@@ -127,7 +130,8 @@ void disturb(Episode& noisy, const erp::Robot& robot, std::uint64_t seed) {
   }
 }
 
-/// The change of one residual by a change of the recording, at each window. NaN if it may be hidden by a band.
+/// The change of one residual by a change of the recording, at each window. NaN if it may be hidden
+/// by a band.
 Signal change_of(const Residual& before, const Residual& after) {
   Signal change;
   for (std::size_t k = 0; k < before.value.size(); ++k)

@@ -30,8 +30,8 @@ void fill_forward(Signal& signal) {
     if (std::isnan(signal[k - 1])) signal[k - 1] = signal[k];
 }
 
-/// The Gauss-Newton step of the unknowns at one row. `slope`: ∂F̂/∂q, N/rad, tendons × unknowns. Empty: the tendons do
-/// not determine the pose there.
+/// The Gauss-Newton step of the unknowns at one row. `slope`: ∂F̂/∂q, N/rad, tendons × unknowns.
+/// Empty: the tendons do not determine the pose there.
 Eigen::VectorXd step_at(std::size_t row, const std::vector<ChainTrace>& chains,
                         const Eigen::Ref<const Eigen::MatrixXd>& slope) {
   Eigen::VectorXd difference_N(slope.rows());

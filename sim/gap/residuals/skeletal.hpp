@@ -9,22 +9,23 @@
 #include "sim/gap/residuals/episode.hpp"
 #include "sim/model/actuator/muscle_jacobian.hpp"
 
-/// The skeleton of a robot at the joint angles of a recording: the paths of the tendons at every row, and the inverse
-/// dynamics at a window.
+/// The skeleton of a robot at the joint angles of a recording: the paths of the tendons at every
+/// row, and the inverse dynamics at a window.
 namespace sim::residuals {
 
-/// The path of a tendon at every row; for the transmission of a drive, −q of its load. Empty if the tendon crosses a
-/// joint that was not measured.
+/// The path of a tendon at every row; for the transmission of a drive, −q of its load. Empty if the
+/// tendon crosses a joint that was not measured.
 struct PathTrace {
   Signal length_m, wrap_rad;
-  /// Rate and mean of `length_m` under windows, set by `smooth`. Effects with state use the mean because noise would
-  /// reduce a hysteresis.
+  /// Rate and mean of `length_m` under windows, set by `smooth`. Effects with state use the mean
+  /// because noise would reduce a hysteresis.
   Signal rate_m_per_s = {}, mean_m = {};
 
   void smooth(double period_s, double speed_half_width_s);
 };
 
-/// Means of angles, speeds and accelerations under a window. For spherical joints, ω and its rate in the child's frame.
+/// Means of angles, speeds and accelerations under a window. For spherical joints, ω and its rate
+/// in the child's frame.
 struct Motion {
   std::vector<JointReading> joints;
   Eigen::VectorXd acceleration;
@@ -69,8 +70,9 @@ class Skeletal {
     std::vector<int> crossed;  ///< joints
   };
   JointReading reading(const JointSignals& joint, std::size_t j, std::size_t row) const;
-  /// The angle of the hinge if a tendon crosses only one hinge; its length is then interpolated in a table. Null: the
-  /// tendon crosses other joints, or the range of the angle is too large for a table to save time.
+  /// The angle of the hinge if a tendon crosses only one hinge; its length is then interpolated in
+  /// a table. Null: the tendon crosses other joints, or the range of the angle is too large for a
+  /// table to save time.
   const Signal* only_angle(std::size_t actuator, std::span<const JointSignals> joints) const;
   PathTrace path_by_table(std::size_t actuator, const Signal& angle_rad);
 

@@ -8,8 +8,9 @@
 #include "sim/gap/residuals/loose_joint.hpp"
 #include "sim/model/effects/library.hpp"
 
-/// The residuals of a robot's laws, stage by stage. The chain of an actuator is cut at every measured signal, and the
-/// inputs of each stage are the measurements at its ends. Thus an error of one stage does not appear at the next.
+/// The residuals of a robot's laws, stage by stage. The chain of an actuator is cut at every
+/// measured signal, and the inputs of each stage are the measurements at its ends. Thus an error of
+/// one stage does not appear at the next.
 ///
 ///   motor     V − R i − L di/dt − K_E N ω                                   (V)
 ///   gearbox   J_M N² ω̇ − N (K_T ī − µ_M N ω − s τ_CM) + X/e                 (Nm),
@@ -17,15 +18,18 @@
 ///   tendon    F − [f(Δx) + D dΔx/dt],  Δx from q and θ                       (N)
 ///   joint     H q̈ + C + τ_G + friction + Σ F ∂L/∂q                          (Nm), for each coordinate
 ///
-/// each as a mean under a window (bump.hpp). Symbols: motor.hpp, tendon.hpp; q, θ: angles of joint and shaft.
+/// each as a mean under a window (bump.hpp). Symbols: motor.hpp, tendon.hpp; q, θ: angles of joint
+/// and shaft.
 ///
 /// - The current at a row is that at the end of a period of constant voltage (held_voltage.hpp).
-/// - Where a joint or a shaft rests or reverses, friction may have any value within a band, and a near stop may push. The
-///   residual is then the part beyond the band. The noise that the band hides is added (band.hpp).
+/// - Where a joint or a shaft rests or reverses, friction may have any value within a band, and a
+///   near stop may push. The residual is then the part beyond the band. The noise that the band
+///   hides is added (band.hpp).
 /// - Windows in which a shaft or a ball joint rests, or a ball joint is at its stop, are excluded.
 /// - Spindle and routing belong to the stage of the tendon, bodies to the stage of the joint.
-/// - Without a tension sensor the tension is computed from the spring's law. Errors of the tendon then appear at the
-///   stages that use the tension. Without a current sensor the current is computed from the motor's law.
+/// - Without a tension sensor the tension is computed from the spring's law. Errors of the tendon
+///   then appear at the stages that use the tension. Without a current sensor the current is
+///   computed from the motor's law.
 namespace sim::residuals {
 
 /// Windows of the residuals; chosen.
@@ -45,11 +49,11 @@ class Stages {
   explicit Stages(const erp::Robot& robot, const Windows& windows = {});
   /// Episodes with the same columns have the same list of residuals.
   Explanation explain(const Episode& episode);
-  /// Recomputes only the parts in `reach`. The other parts are copied from `base`, an explanation of the same episode by
-  /// a robot that differs in one effect.
+  /// Recomputes only the parts in `reach`. The other parts are copied from `base`, an explanation
+  /// of the same episode by a robot that differs in one effect.
   Explanation explain(const Episode& episode, const Explanation& base, const Reach& reach);
-  /// Computes all parts. The search for unmeasured joints starts at `guess` and uses its linearized tendon paths, if it
-  /// has any.
+  /// Computes all parts. The search for unmeasured joints starts at `guess` and uses its linearized
+  /// tendon paths, if it has any.
   Explanation explain(const Episode& episode, std::shared_ptr<const JointTrace> guess);
   std::vector<Residual> residuals(const Episode& episode) { return explain(episode).residuals; }
 
@@ -69,16 +73,17 @@ class Stages {
   Explanation recompute(const Episode& episode, Explanation explanation, const Touched& touched);
   JointTrace joint_trace(const Episode& episode, std::span<const std::size_t> rows,
                          const JointTrace* guess);
-  /// Unmeasured joints whose angles may be estimated from tendons. Free joints are excluded: tendons do not determine
-  /// them.
+  /// Unmeasured joints whose angles may be estimated from tendons. Free joints are excluded:
+  /// tendons do not determine them.
   std::vector<std::size_t> missing_joints(const JointTrace& trace) const;
-  /// Tendons with measured shaft and tension that cross only measured joints and those of `missing`.
+  /// Tendons with measured shaft and tension that cross only measured joints and those of
+  /// `missing`.
   std::vector<std::size_t> informative_tendons(const Episode& episode, const JointTrace& trace,
                                                std::span<const std::size_t> missing) const;
   /// Estimates the missing joints, if enough tendons determine them.
   void find_pose(const Episode& episode, JointTrace& trace, const JointTrace* guess);
-  /// Estimates the angles of joints whose sensor has play from the measured tensions, at rows at which the sensor may
-  /// rest.
+  /// Estimates the angles of joints whose sensor has play from the measured tensions, at rows at
+  /// which the sensor may rest.
   void find_crossings(const Episode& episode, JointTrace& trace, std::span<const LooseJoint> loose);
   /// The chains of the given actuators, in their order.
   std::vector<ChainTrace> chains_of(const Episode& episode, std::span<const std::size_t> lines,
@@ -103,7 +108,8 @@ class Stages {
   enum class Mobility { moves, rests, mixed };
   Mobility mobility(const JointTrace& joints, std::size_t joint, const Bump& bump,
                     std::size_t row) const;
-  /// The torque that neither friction at rest nor a stop can explain, and the band that they may balance.
+  /// The torque that neither friction at rest nor a stop can explain, and the band that they may
+  /// balance.
   std::pair<double, double> remaining_torque(const JointTrace& joints, std::size_t joint,
                                              const Bump& bump, std::size_t row,
                                              double torque_Nm) const;

@@ -33,8 +33,9 @@ erp::Robot slide(erp::DriveControl control) {
   return robot;
 }
 
-/// Simulates a mass with the force gain · u, held for 1 ms. A proportional-derivative controller follows a sum of sines.
-/// Friction is a steep tanh. The integrator's step is a twentieth of the row period.
+/// Simulates a mass with the force gain · u, held for 1 ms. A proportional-derivative controller
+/// follows a sum of sines. Friction is a steep tanh. The integrator's step is a twentieth of the
+/// row period.
 recording::Table recorded(const Friction& f, double seconds, double angular_frequency) {
   constexpr double mass = 40, gain = 30, row_s = 1e-3;
   recording::Table table;
@@ -56,7 +57,8 @@ recording::Table recorded(const Friction& f, double seconds, double angular_freq
   return table;
 }
 
-/// Defects of a bench: a current-controlled motor, a gearbox, a compliant shaft and a load, with sensors at both ends.
+/// Defects of a bench: a current-controlled motor, a gearbox, a compliant shaft and a load, with
+/// sensors at both ends.
 struct Bench {
   double gear_dry_Nm = 0, load_dry_Nm = 0;
   double stiffness_loss = 0;  ///< relative

@@ -6,7 +6,8 @@
 #include "interfaces/recording/table.hpp"
 #include "interfaces/robot/robot.hpp"
 
-/// A light current-controlled motor with stiction. Its recordings are simulated without code of the product.
+/// A light current-controlled motor with stiction. Its recordings are simulated without code of the
+/// product.
 namespace light_drive {
 
 struct Light {  // a light drive

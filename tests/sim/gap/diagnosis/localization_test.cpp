@@ -32,7 +32,8 @@ TEST_CASE(
     INFO(effects::word(gap.stage) << " " << gap.on << ": rms " << gap.rms << " " << gap.unit
                                   << ", floor " << gap.floor);
     CHECK(gap.rms < 1.35 * gap.floor);
-    // The noise floor of a tendon includes a delay of the tension by half a period; here there is no delay.
+    // The noise floor of a tendon includes a delay of the tension by half a period; here there is
+    // no delay.
     CHECK(gap.rms > (gap.stage == effects::Stage::tendon ? 0.4 : 0.7) * gap.floor);
     CHECK_FALSE(gap.open);
   }

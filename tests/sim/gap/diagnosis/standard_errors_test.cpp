@@ -13,8 +13,8 @@ struct Fitted {
   double spread = 0, error = 0;  ///< rms error of the slope; rms of its standard error
 };
 
-/// Fits with a disturbance: a first-order autoregressive process with the standard deviation `size` · |j|^`exponent` and
-/// the correlation time `windows`.
+/// Fits with a disturbance: a first-order autoregressive process with the standard deviation `size`
+/// · |j|^`exponent` and the correlation time `windows`.
 Fitted fitted(double size, double windows, double exponent) {
   constexpr int draws = 400, count = 2000;
   std::mt19937_64 random(5);

@@ -79,7 +79,8 @@ TEST_CASE("a change of a constant gives the residuals of the effect that represe
     with_effect.effects.push_back(sim::effects::written(as_effect(c, {k, x[k], 0}).effect));
     const auto by_constant = explain(with_constants(robot, constants, x));
     const double change = difference(nominal, by_constant);
-    // The efficiency of the gearbox acts on the rotor's friction, but not on the friction of the effect.
+    // The efficiency of the gearbox acts on the rotor's friction, but not on the friction of the
+    // effect.
     const bool before_gearbox =
         c.name == "rotor_coulomb_Nm" || c.name == "rotor_viscous_Nm_s_per_rad";
     CHECK(difference(by_constant, explain(with_effect)) < (before_gearbox ? 0.15 : 1e-6) * change);

@@ -13,8 +13,8 @@ using blind_recording::hinge_rig;
 
 namespace {
 
-/// Recordings of a rig with other constants and hidden effects. They are simulated with the equations of the blind cases
-/// and arranged for the nominal rig.
+/// Recordings of a rig with other constants and hidden effects. They are simulated with the
+/// equations of the blind cases and arranged for the nominal rig.
 std::vector<sim::residuals::Episode> recordings_of(
     const erp::Robot& built, double seconds = 10,
     const sim::blind::Case& hidden = blind_recording::nothing_hidden()) {
@@ -70,7 +70,8 @@ TEST_CASE(
     check_within(found, on, "resistance_ohm", 1.06 * 0.516);
     check_within(found, on, "rotor_inertia_kg_m2", 1.05 * 14.5e-7);
     check_within(found, on, "torque_Nm_per_A", 11.5e-3);
-    // A larger spindle with a larger moment arm and a softer spring gives nearly the same residuals.
+    // A larger spindle with a larger moment arm and a softer spring gives nearly the same
+    // residuals.
     CHECK(value_of(found, on, "radius_m") / value_of(found, on, "moment_arm") ==
           Approx(1.03 * 0.0045).epsilon(0.005));
   }

@@ -22,8 +22,8 @@ struct Samples {
   double current_A[3], angle_rad[3];
 };
 
-/// Simulates the motor from 1.3 A and 2 rad/s in steps of 20 ns (midpoint rule). The first of three voltages is the
-/// previous one, which acts during the delay of the driver.
+/// Simulates the motor from 1.3 A and 2 rad/s in steps of 20 ns (midpoint rule). The first of three
+/// voltages is the previous one, which acts during the delay of the driver.
 Samples run(const erp::MotorType& m, const double (&voltages)[3], double load_Nm, double delay_s) {
   const double n = m.gear_ratio, inertia = shaft_inertia_kg_m2(m), dt = 2e-8;
   double i = 1.3, w = 2, angle = 0;

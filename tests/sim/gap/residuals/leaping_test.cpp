@@ -33,8 +33,8 @@ double rms(const std::vector<double>& x) {
   return std::sqrt(square / double(x.size()));
 }
 
-/// Simulates a motor with voltage steps and a constant tension. `averaged`: currents are means around the rows, otherwise
-/// values at the rows.
+/// Simulates a motor with voltage steps and a constant tension. `averaged`: currents are means
+/// around the rows, otherwise values at the rows.
 ActuatorSignals driven(const erp::Robot& robot, const erp::Actuator& actuator, bool averaged) {
   constexpr int substeps = 40;
   const sim::Motor motor(robot.motor_of(actuator), actuator.spindle.radius_m, period_s / substeps);

@@ -54,8 +54,8 @@ struct Signature {
   std::vector<std::string> stages;
 };
 
-// Not included: effects that this motion does not excite (stiction, inductance, backlash, an attachment that lies on
-// its pulley), effects that cannot be inverted (quantization), and the bus.
+// Not included: effects that this motion does not excite (stiction, inductance, backlash, an
+// attachment that lies on its pulley), effects that cannot be inverted (quantization), and the bus.
 const std::vector<Signature> signatures{
     {"motor_resistance", {"motor flexor", "gearbox flexor"}},
     {"motor_torque_constant", {"motor flexor", "gearbox flexor"}},
@@ -103,8 +103,8 @@ TEST_CASE("without effects the residual of each stage is the sensor noise") {
   CHECK(residuals.size() == 7);
   for (const auto& [stage, value] : residuals) {
     INFO(stage);
-    // Noise, averaged over about ten samples. Motor: 15 mA · 0.516 ohm. Gearbox: 15 mA at the gearbox, and 0.5 mrad
-    // differentiated twice. Tendon: 0.05 N, and 0.5 mrad · 25 mm · 6000 N/m.
+    // Noise, averaged over about ten samples. Motor: 15 mA · 0.516 ohm. Gearbox: 15 mA at the
+    // gearbox, and 0.5 mrad differentiated twice. Tendon: 0.05 N, and 0.5 mrad · 25 mm · 6000 N/m.
     const double noise = stage.starts_with("motor")     ? 0.0077
                          : stage.starts_with("gearbox") ? 0.022
                          : stage.starts_with("tendon")  ? 0.09
