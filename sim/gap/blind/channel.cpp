@@ -19,7 +19,7 @@ namespace {
 // integrator's step.
 constexpr double shaft_travel_rad = 3e-4, shaft_damping_s = 2e-3, line_travel_m = 4e-5;
 constexpr double max_deflection = 1.2;        // of a bristle with its damping; chosen
-constexpr double line_damping_N_s_per_m = 5;  // at least; chosen: keeps the integration stable
+constexpr double line_damping_N_s_per_m = 5;  // at least; chosen: stable integration
 // A steel spindle of 4.5 mm with the last gear wheel. The teeth are stiff, not rigid.
 constexpr double spindle_kg_m2 = 1e-6, tooth_Nm_per_rad = 120, tooth_damping_s = 1.7e-4;
 constexpr double spindle_dry_Nm = 0.003;  // part of the gearbox friction after the play; chosen

@@ -185,7 +185,7 @@ class Vote {
     if (moves_bones(correction)) means_.paths = paths;
     const bool is_sufficient =
         correction.kind == Correction::Kind::exchanged ? tally.gain > 1 : tally.suspicious > 0;
-    if (is_sufficient && tally.gain > 0 && tally.gain >= gain_) keep(std::move(correction), tally);
+    if (is_sufficient && tally.gain > 0 && tally.gain >= gain_) store(std::move(correction), tally);
   }
 
   struct Tally {
@@ -208,7 +208,7 @@ class Vote {
 
   /// Keeps the corrections with the highest score; of two factors of one column, the one with the
   /// smaller deviation.
-  void keep(Correction correction, const Tally& tally) {
+  void store(Correction correction, const Tally& tally) {
     if (tally.gain > gain_) best_.clear(), deviations_.clear();
     gain_ = tally.gain;
     for (std::size_t k = 0; k < best_.size(); ++k)

@@ -10,7 +10,7 @@
 
 /// Localization: the stages whose residual exceeds the noise of their sensors.
 ///
-///   excess = ⟨(r/σ)²⟩ − 1          r: residual, σ: its noise floor; 0: noise alone
+///   excess = ⟨(r/σ)²⟩ − 1          r: residual, σ: its noise floor; 0: only noise
 ///   share  = excess / Σ excess      over the open stages; 0 for the others
 ///
 /// Intervals come from a block bootstrap over seconds of the recordings.

@@ -36,7 +36,7 @@ struct AsBuiltOptions {
 AsBuilt as_built(const erp::Robot& nominal, std::span<const residuals::Episode> train,
                  std::span<const residuals::Episode> held_out, const AsBuiltOptions& options = {});
 
-/// Estimates the constants alone, without effects.
+/// Estimates the constants without effects.
 AsBuilt calibrated(const erp::Robot& nominal, std::span<const residuals::Episode> train,
                    const EstimateOptions& options = {});
 

@@ -187,9 +187,9 @@ class Tracer {
     const auto& weights = two_periods_.drives;
     double weighted = 0;
     for (std::size_t j = 0; j < weights.size(); ++j) weighted += weights[j] * current_A(k - 1 + j);
-    const double late = two_periods_.drives_per_V;  // 0 without a driver delay
-    if (late != 0 && !out_.terminal_V.empty())
-      weighted += late * out_.terminal_V[k - 1] +
+    const double voltage_weight = two_periods_.drives_per_V;  // 0 without a driver delay
+    if (voltage_weight != 0 && !out_.terminal_V.empty())
+      weighted += voltage_weight * out_.terminal_V[k - 1] +
                   two_periods_.drives_per_speed * rate_of(out_.shaft_rad, k, period_s_);
     return (1 - a) * weighted + a * current_A(k);
   }

@@ -4,7 +4,7 @@
 
 #include "sim/gap/residuals/stages.hpp"
 
-/// The noise floor: the residuals that the specified sensor noise alone causes.
+/// The noise floor: the residuals that only the specified sensor noise causes.
 namespace sim::residuals {
 
 /// Adds another realization of the sensor noise to a recording: noise and quantization of each
