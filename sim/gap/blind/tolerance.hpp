@@ -22,8 +22,8 @@ struct AsBuilt {
   std::vector<Drawn> drawn;
 };
 
-/// Multiplies every constant by an independent factor 1 + relative·N(0, 1). K_E and K_T have a common
-/// factor. Errors of moment arms are written to `hidden_effects`. Sensors are unchanged.
+/// Multiplies every constant by an independent factor 1 + relative·N(0, 1). K_E and K_T have a
+/// common factor. Errors of moment arms are written to `hidden_effects`. Sensors are unchanged.
 AsBuilt as_built(const erp::Robot& nominal, double relative, std::uint64_t seed,
                  HiddenEffects& hidden_effects);
 

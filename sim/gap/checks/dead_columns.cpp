@@ -14,8 +14,8 @@ constexpr double shortest_s = 2;         // of a dead period
 constexpr double supply_fraction = 0.1;  // of the supply voltage
 constexpr double range_fraction = 0.1;   // of the tension sensor
 constexpr double noise_factor = 20;      // times step and noise of the sensor
-constexpr double noise_factor_whole =
-    5;  // the same for a column that is constant in the whole recording
+// The same for a column that is constant in the whole recording.
+constexpr double noise_factor_whole = 5;
 constexpr double travel_m = 0.005, travel_without_tension_m = 0.015;  // of a tendon
 
 struct Run {

@@ -159,8 +159,8 @@ ClosedGap all_of(const Errors& errors, std::span<const std::size_t> drawn) {
 std::optional<LearnedEcu> foreign_ecu(std::span<const Episode> recordings, const erp::Robot& robot,
                                       std::vector<std::string>& remarks) {
   constexpr double same_firmware = 0.05;  // largest unexplained variance; chosen
-  constexpr double learned_ratio =
-      0.5;  // largest, to the variance that the firmware leaves; chosen
+  // Largest, to the variance that the firmware leaves; chosen.
+  constexpr double learned_ratio = 0.5;
   const double unexplained = unexplained_by_firmware(recordings, robot, same_firmware);
   if (unexplained < same_firmware) return {};
   LearnedEcu ecu = learn(recordings, robot);

@@ -19,8 +19,8 @@ constexpr double tick_s = residuals::tick_s;
 constexpr std::size_t max_lag = 3, least_rows = 500;  // chosen
 constexpr std::size_t max_age_rows = 30;              // rows, age of a command; chosen
 constexpr std::size_t max_rows = 10'000;              // of a recording; chosen
-constexpr double older_factor =
-    0.1;  // of `enough`, because the best of many ages fits by chance; chosen
+// Of `enough`, because the best of many ages fits by chance; chosen.
+constexpr double older_factor = 0.1;
 constexpr double clip_fraction = 0.98;  // of the supply; chosen
 
 std::optional<EcuInput> input_at(const ActuatorSignals& s, std::size_t row,

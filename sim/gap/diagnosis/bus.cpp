@@ -15,9 +15,9 @@ namespace sim::diagnosis {
 namespace {
 
 constexpr std::size_t age_limit = 60;  // ticks; chosen
-constexpr double least_determined =
-    0.6;                             // fraction of ages; below, the ECU has another law; chosen
-constexpr double near_limit = 0.97;  // of current or supply; chosen
+// Fraction of ages; below, the ECU has another law; chosen.
+constexpr double least_determined = 0.6;
+constexpr double near_limit = 0.97;         // of current or supply; chosen
 constexpr std::size_t least_checked = 100;  // ticks; chosen
 
 /// Law of one actuator: V = gain · reference + offset.
@@ -226,8 +226,8 @@ std::vector<BusFit> fit_bus(std::span<const Ages> train, std::span<const Ages> h
     BusFit fit = fit_one({robot.name, effect}, train);
     fit.gain = (likelihood(held_out, predicted_ages(fit.placed, train[0].period_s)) - before) /
                std::max(best_possible - before, 1e-9);
-    constexpr double supported_gain =
-        0.965;  // chosen: two simultaneous effects resemble jitter with 0.956
+    // Chosen: two simultaneous effects resemble jitter with 0.956.
+    constexpr double supported_gain = 0.965;
     fit.supported = fit.gain > supported_gain;
     fits.push_back(std::move(fit));
   }

@@ -16,8 +16,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double rank_tolerance = 1e-9;  // of the pivots of G
-constexpr double replacement_ratio =
-    0.99;  // largest remainder / previous one for a replacement; chosen
+// Largest remainder / previous one for a replacement; chosen.
+constexpr double replacement_ratio = 0.99;
 
 /// Scalar products of all sensitivities. Remainders are computed from these products.
 class Products {

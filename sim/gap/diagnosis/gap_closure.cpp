@@ -7,6 +7,8 @@
 namespace sim::diagnosis {
 namespace {
 
+constexpr int bootstrap_draws = 400;  // chosen
+
 double closed_of(const ClosedGap& c) {
   return c.before > c.floor ? (c.before - c.after) / (c.before - c.floor) : 0;
 }
@@ -15,9 +17,9 @@ double closed_of(const ClosedGap& c) {
 /// σ, with z_c = r/σ_c:
 ///
 ///   z² = 1 + (σ_c/σ)² (z_c² − 1)
-std::vector<ScoreBlock> above_known_noise(const Evaluator& baseline, const Evaluator& corrected,
-                                          const Evaluation& evaluation,
-                                          const std::vector<std::size_t>& episodes) {
+std::vector<ScoreBlock> above_corrected_noise(const Evaluator& baseline, const Evaluator& corrected,
+                                              const Evaluation& evaluation,
+                                              const std::vector<std::size_t>& episodes) {
   std::vector<ScoreBlock> all;
   for (const std::size_t e : episodes) {
     const std::size_t only[] = {e};
@@ -57,7 +59,7 @@ Interval closed_interval(const Problem& problem, const std::vector<ScoreBlock>& 
     return closed_of({"", "", std::sqrt(square_before / std::max(1.0, windows)), 1,
                       std::sqrt(std::max(0.0, 1 + floor_ratio * floor_ratio * excess))});
   };
-  return middle(bootstrap(before.size(), 400, problem.options.seed, closed));
+  return middle(bootstrap(before.size(), bootstrap_draws, problem.options.seed, closed));
 }
 
 }  // namespace
@@ -93,7 +95,7 @@ ClosedGap closed_overall(const Problem& problem, const Evaluator& baseline,
                          const Evaluator& corrected, const Evaluation& evaluation) {
   const auto& held_out = problem.sets.held_out;
   const auto before = baseline.blocks(baseline.nominal_evaluation(), held_out);
-  const auto after = above_known_noise(baseline, corrected, evaluation, held_out);
+  const auto after = above_corrected_noise(baseline, corrected, evaluation, held_out);
   const auto of = [&](const std::vector<std::size_t>& drawn) {
     ClosedGap c{"all", "noise", 0, 1};
     double square_before = 0, square_after = 0, windows = 0;
@@ -106,7 +108,7 @@ ClosedGap closed_overall(const Problem& problem, const Evaluator& baseline,
     return c;
   };
   ClosedGap total = of(each(before.size()));
-  total.interval = middle(bootstrap(before.size(), 400, problem.options.seed,
+  total.interval = middle(bootstrap(before.size(), bootstrap_draws, problem.options.seed,
                                     [&](const auto& drawn) { return of(drawn).closed; }));
   return total;
 }

@@ -14,8 +14,8 @@ namespace {
 
 using effects::Placed;
 
-constexpr double least_gap =
-    0.02;  // of the noise; a fraction of a smaller gap is meaningless; chosen
+// Of the noise; a fraction of a smaller gap is meaningless; chosen.
+constexpr double least_gap = 0.02;
 
 /// Scores of a candidate at the open stages and at the stages that it makes worse. Other stages are
 /// ignored because a fit of the noise of a stage without a gap is not a gain.

@@ -22,8 +22,8 @@ double reversal_fraction(const Evaluator& evaluator) {
 }
 
 std::optional<std::string> rows_too_far_apart(const Evaluator& evaluator) {
-  constexpr double max_fraction =
-      0.05;  // a third of the windows, of at least six rows each; chosen
+  // A third of the windows, of at least six rows each; chosen.
+  constexpr double max_fraction = 0.05;
   if (evaluator.nominal().drives.empty()) return std::nullopt;
   const double fraction = reversal_fraction(evaluator);
   if (fraction <= max_fraction) return std::nullopt;

@@ -48,8 +48,8 @@ class Screen {
     const double total = change.squaredNorm();
     for (const VectorXd& d : sensitivities_) change -= d.dot(change) * d;
     const double square = change.squaredNorm();
-    constexpr double smallest_part =
-        1e-4;  // of its square; less is reproduced by the present effects
+    // Of its square; less is reproduced by the present effects.
+    constexpr double smallest_part = 1e-4;
     if (square < 1e-12 || square < smallest_part * total) return 0;
     return std::pow(residual_.dot(change), 2) / square;
   }

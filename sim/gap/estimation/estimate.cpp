@@ -154,8 +154,8 @@ struct Descent {
   /// Its weights, and derivatives with respect to the constants, are used in all steps; null: they
   /// are recomputed.
   const Estimate* base = nullptr;
-  bool are_current =
-      false;  ///< the derivatives were computed at the estimate, or one small step before
+  /// The derivatives were computed at the estimate, or one small step before.
+  bool are_current = false;
   bool is_stale = true;  ///< the derivatives must be recomputed
 };
 

@@ -17,8 +17,8 @@ double reverse_fraction(std::span<const residuals::Episode> recordings, std::siz
   for (const residuals::Episode& e : recordings) {
     const residuals::Signal& theta = e.actuators[actuator].shaft_rad;
     const auto valid = [&](std::size_t row) { return e.judged(row) && !std::isnan(theta[row]); };
-    constexpr std::size_t rows =
-        10;  // between compared rows; shorter travel has the sign of the noise
+    // Between compared rows; shorter travel has the sign of the noise.
+    constexpr std::size_t rows = 10;
     for (std::size_t k = rows; k < theta.size(); k += rows)
       if (valid(k) && valid(k - rows)) {
         const double turned = theta[k] - theta[k - rows];

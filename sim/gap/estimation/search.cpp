@@ -117,8 +117,8 @@ std::vector<JudgedEstimate> Search::with_each_candidate(const JudgedEstimate& ba
 /// The cheapest of `joined` after estimation until convergence, with its rivals.
 JudgedEstimate Search::with_best_of(const std::vector<JudgedEstimate>& joined,
                                     const JudgedEstimate& base) const {
-  constexpr double possible_miss =
-      0.3;  // of the minimum by a few steps, relative to the gain; chosen
+  // Of the minimum by a few steps, relative to the gain; chosen.
+  constexpr double possible_miss = 0.3;
   constexpr std::size_t max_estimated = 4;  // chosen
   std::vector<JudgedEstimate> converged;
   const double cost_limit = joined[0].cost + possible_miss * (base.cost - joined[0].cost);
