@@ -73,8 +73,8 @@ class Messages {
   std::string of(const DeadColumn& dead) const {
     const std::string when = dead.whole_recording ? "in the whole recording"
                                                   : fmt::format("from {:.3g} s to {:.3g} s",
-                                                                double(dead.from) * e_.period_s,
-                                                                double(dead.until) * e_.period_s);
+                                                                double(dead.first) * e_.period_s,
+                                                                double(dead.end) * e_.period_s);
     return fmt::format(
         "{} is constant at {:.4g} {} while {} change{}: the signal is dead; repair the sensor, or "
         "remove {}",

@@ -19,8 +19,8 @@ constexpr double noise_factor_whole = 5;
 constexpr double travel_m = 0.005, travel_without_tension_m = 0.015;  // of a tendon
 
 struct Run {
-  std::size_t from = 0, until = 0;
-  std::size_t rows() const { return until - from; }
+  std::size_t first = 0, end = 0;
+  std::size_t rows() const { return end - first; }
 };
 
 /// The longest run of one constant value. Missing samples (NaN) do not interrupt it.
@@ -29,8 +29,8 @@ Run longest_run(const Signal& signal) {
   double value = recording::not_taken;
   for (std::size_t k = 0; k < signal.size(); ++k) {
     if (std::isnan(signal[k])) continue;
-    if (signal[k] != value) value = signal[k], run.from = k;
-    run.until = k + 1;
+    if (signal[k] != value) value = signal[k], run.first = k;
+    run.end = k + 1;
     if (run.rows() > longest.rows()) longest = run;
   }
   return longest;
@@ -202,16 +202,16 @@ std::vector<DeadColumn> dead_columns(const Episode& episode, const erp::Robot& r
     const auto valid = std::ranges::count_if(signal, [](double x) { return !std::isnan(x); });
     const bool whole_recording =
         run.rows() > 0 && valid > 0 && std::ranges::all_of(signal, [&](double x) {
-          return std::isnan(x) || x == signal[run.from];
+          return std::isnan(x) || x == signal[run.first];
         });
     if (!whole_recording && double(run.rows()) * episode.period_s < shortest_s) continue;
     if (whole_recording && !recording_means) recording_means = laws.means(episode, 0, episode.rows);
-    const Means run_means = whole_recording ? Means{} : laws.means(episode, run.from, run.until);
+    const Means run_means = whole_recording ? Means{} : laws.means(episode, run.first, run.end);
     const auto evidence =
         ExpectedChange(robot, laws, whole_recording ? *recording_means : run_means, whole_recording)
             .of(column);
     if (!evidence.empty())
-      dead.push_back({column, signal[run.from], run.from, run.until, whole_recording, evidence});
+      dead.push_back({column, signal[run.first], run.first, run.end, whole_recording, evidence});
   }
   return dead;
 }

@@ -10,8 +10,8 @@ namespace sim::checks {
 
 struct DeadColumn {
   Column column;
-  double value;             ///< the constant value
-  std::size_t from, until;  ///< rows
+  double value;            ///< the constant value
+  std::size_t first, end;  ///< rows `first` … `end` − 1
   bool whole_recording;
   std::vector<Column> evidence;  ///< columns that change meanwhile
 };

@@ -84,8 +84,8 @@ bool Law::is_suspicious() const {
          !has_plausible_slope();
 }
 
-Means Laws::means(const Episode& episode, std::size_t from, std::size_t until) {
-  Means means = means_of(episode, from, until);
+Means Laws::means(const Episode& episode, std::size_t first, std::size_t end) {
+  Means means = means_of(episode, first, end);
   compute_paths(means);
   return means;
 }

@@ -49,8 +49,8 @@ class Laws {
  public:
   explicit Laws(const erp::Robot& robot) : robot_(robot), bones_(robot) {}
 
-  /// Means of the rows `from` … `until` − 1, with the tendon paths.
-  Means means(const Episode& episode, std::size_t from, std::size_t until);
+  /// Means of the rows `first` … `end` − 1, with the tendon paths.
+  Means means(const Episode& episode, std::size_t first, std::size_t end);
   void compute_paths(Means& means);
   /// Angle columns of the joints that an actuator's tendon crosses.
   std::vector<Column> crossed_by(std::size_t actuator) const;

@@ -47,12 +47,11 @@ void Means::remove(const Column& column) {
   actuators[column.of].acceleration_rad_per_s2.clear();
 }
 
-Means means_of(const Episode& e, std::size_t from, std::size_t until) {
+Means means_of(const Episode& e, std::size_t first, std::size_t end) {
   const residuals::Bump bump(half_width_s, e.period_s);
   Means means;
   std::vector<std::size_t> rows;
-  for (std::size_t k = from + bump.reach(); k + bump.reach() < until; k += stride)
-    rows.push_back(k);
+  for (std::size_t k = first + bump.reach(); k + bump.reach() < end; k += stride) rows.push_back(k);
   means.rows = rows.size();
   const auto downsampled = [&](const Signal& signal, auto value_at) {
     Signal values;

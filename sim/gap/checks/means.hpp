@@ -32,7 +32,7 @@ struct Means {
   void remove(const Column& column);
 };
 
-/// Means of the rows `from` … `until` − 1, without the paths.
-Means means_of(const Episode& episode, std::size_t from, std::size_t until);
+/// Means of the rows `first` … `end` − 1, without the paths.
+Means means_of(const Episode& episode, std::size_t first, std::size_t end);
 
 }  // namespace sim::checks

@@ -19,7 +19,7 @@ constexpr double tick_s = residuals::tick_s;
 constexpr std::size_t max_lag = 3, least_rows = 500;  // chosen
 constexpr std::size_t max_age_rows = 30;              // rows, age of a command; chosen
 constexpr std::size_t max_rows = 10'000;              // of a recording; chosen
-// Of `enough`, because the best of many ages fits by chance; chosen.
+// Of `tolerated_fraction`, because the best of many ages fits by chance; chosen.
 constexpr double older_factor = 0.1;
 constexpr double clip_fraction = 0.98;  // of the supply; chosen
 
@@ -187,10 +187,11 @@ double unexplained_at(std::span<const Episode> recordings, const erp::Robot& rob
 }  // namespace
 
 double unexplained_by_firmware(std::span<const Episode> recordings, const erp::Robot& robot,
-                               double enough) {
+                               double tolerated_fraction) {
   const double newest = unexplained_at(recordings, robot, 0);
-  for (std::size_t age = 1; age <= max_age_rows && newest > enough; ++age)
-    if (const double older = unexplained_at(recordings, robot, age); older < older_factor * enough)
+  for (std::size_t age = 1; age <= max_age_rows && newest > tolerated_fraction; ++age)
+    if (const double older = unexplained_at(recordings, robot, age);
+        older < older_factor * tolerated_fraction)
       return older;
   return newest;
 }

@@ -54,10 +54,10 @@ LearnedEcu learn(std::span<const residuals::Episode> recordings, const erp::Robo
 
 /// Returns the fraction of the variance of the voltages that this product's firmware, with the
 /// gains designed for `robot`, does not predict from the measurements. The newest commands are
-/// used. If the fraction exceeds `enough`, commands of a constant age (up to 60 ms) are used if
-/// their fraction is below a tenth of `enough`. The result is near 0 for recordings of this
-/// firmware, even with a delayed bus; 1 if there is too little data.
+/// used. If the fraction exceeds `tolerated_fraction`, commands of a constant age (up to 60 ms) are
+/// used if their fraction is below a tenth of `tolerated_fraction`. The result is near 0 for
+/// recordings of this firmware, even with a delayed bus; 1 if there is too little data.
 double unexplained_by_firmware(std::span<const residuals::Episode> recordings,
-                               const erp::Robot& robot, double enough = 0.05);
+                               const erp::Robot& robot, double tolerated_fraction = 0.05);
 
 }  // namespace sim::closed_loop

@@ -89,10 +89,10 @@ bool EffectSet::helps(const EffectSet& before) const {
 
 /// Replaces effect k if another effect is better. An earlier choice may have been a compromise
 /// between two effects.
-void EffectSet::reconsider(std::size_t k, double from, double to) {
+void EffectSet::reconsider(std::size_t k, double progress_begin, double progress_end) {
   auto others = without_element(chosen_, k);
   const auto ranked = rank(evaluator_, evaluator_.get().with(others, sets().all()),
-                           problem_.get().ranking_options(from, to));
+                           problem_.get().ranking_options(progress_begin, progress_end));
   if (ranked.empty() || identified(ranked[0].fit.placed).is(chosen_[k])) return;
   EffectSet other = *this;
   others.push_back(ranked[0].fit.placed);

@@ -36,7 +36,7 @@ class EffectSet {
   const Sets& sets() const { return problem_.get().sets; }
   bool has(const effects::Placed& other) const;
   bool helps(const EffectSet& before) const;
-  void reconsider(std::size_t k, double from, double to);
+  void reconsider(std::size_t k, double progress_begin, double progress_end);
 
   std::reference_wrapper<const Problem> problem_;
   std::reference_wrapper<const Evaluator> evaluator_;

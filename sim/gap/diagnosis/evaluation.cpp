@@ -42,11 +42,11 @@ std::vector<residuals::Floor> Evaluator::floor_under(const Evaluation& evaluatio
   return residuals::floors(stages, episodes_[episode], nominal_, seed_);
 }
 
-Evaluation Evaluator::with(const Evaluation& base, const effects::Placed& more,
+Evaluation Evaluator::with(const Evaluation& base, const effects::Placed& added,
                            std::span<const std::size_t> episodes) const {
   std::vector<effects::Placed> all = base.effects;
-  all.push_back(more);
-  return with_one_changed(base, std::move(all), more, episodes);
+  all.push_back(added);
+  return with_one_changed(base, std::move(all), added, episodes);
 }
 
 Evaluation Evaluator::changed(const Evaluation& base, std::size_t k, const effects::Placed& other,

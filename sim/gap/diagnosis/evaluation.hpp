@@ -40,7 +40,7 @@ class Evaluator {
   const Evaluation& nominal_evaluation() const { return nominal_evaluation_; }
 
   /// Evaluates the effects of `base` and one more on `episodes`. Other recordings remain empty.
-  Evaluation with(const Evaluation& base, const effects::Placed& more,
+  Evaluation with(const Evaluation& base, const effects::Placed& added,
                   std::span<const std::size_t> episodes) const;
   Evaluation with(std::span<const effects::Placed> all,
                   std::span<const std::size_t> episodes) const;

@@ -126,11 +126,11 @@ Minimum minimize(const Cost& cost_function, std::vector<double> u, int iteration
   ceres::CRSMatrix sparse;
   std::vector<double> z;
   problem.Evaluate({}, nullptr, &z, nullptr, &sparse);
-  Minimum least{
+  Minimum minimum{
       2 * summary.final_cost, u,
       standard_errors(dense(sparse), Eigen::VectorXd::Map(z.data(), Eigen::Index(z.size())))};
-  for (std::size_t k = 0; k < u.size(); ++k) least.sigma[k] *= cost_function.scaled[k].scale;
-  return least;
+  for (std::size_t k = 0; k < u.size(); ++k) minimum.sigma[k] *= cost_function.scaled[k].scale;
+  return minimum;
 }
 
 /// Start points: the values of the parameters (perturbed if they are neutral), then with the second
@@ -211,9 +211,9 @@ bool has_size_at_bound(const effects::Placed& placed) {
   return is_at_bound(effects::parameters(neutral)[0], *effects::parameters(effect)[0].value);
 }
 
-Fit fit(const Evaluator& evaluator, const Evaluation& base, const effects::Placed& more,
+Fit fit(const Evaluator& evaluator, const Evaluation& base, const effects::Placed& added,
         std::span<const std::size_t> episodes, const FitOptions& options) {
-  Effects effects{best_initial_guess(evaluator, base, more, episodes)};
+  Effects effects{best_initial_guess(evaluator, base, added, episodes)};
   std::vector<ScaledParameter> scaled = scaled_parameters(effects[0].effect);
   const Cost cost{[&](const Effects& e) { return evaluator.with(base, e[0], episodes); },
                   evaluator,
@@ -223,9 +223,9 @@ Fit fit(const Evaluator& evaluator, const Evaluation& base, const effects::Place
                   count_residuals(evaluator, episodes)};
   Minimum best{};
   for (const auto& start : starts(scaled, !is_neutral(effects[0]), options))
-    if (Minimum least = minimize(cost, start, options.iterations);
-        best.u.empty() || least.square < best.square)
-      best = std::move(least);
+    if (Minimum minimum = minimize(cost, start, options.iterations);
+        best.u.empty() || minimum.square < best.square)
+      best = std::move(minimum);
   for (std::size_t k = 0; k < scaled.size(); ++k) *scaled[k].value = scaled[k].to_value(best.u[k]);
   return result_of(effects[0], best.square, best.sigma);
 }
@@ -249,12 +249,13 @@ std::vector<Fit> fit_jointly(const Evaluator& evaluator, std::span<const effects
                   count_residuals(evaluator, episodes)};
   std::vector<double> u;
   for (const ScaledParameter& one : scaled) u.push_back(one.to_u(*one.value));
-  const Minimum least = minimize(cost, u, options.iterations);
-  for (std::size_t k = 0; k < scaled.size(); ++k) *scaled[k].value = scaled[k].to_value(least.u[k]);
+  const Minimum minimum = minimize(cost, u, options.iterations);
+  for (std::size_t k = 0; k < scaled.size(); ++k)
+    *scaled[k].value = scaled[k].to_value(minimum.u[k]);
   std::vector<Fit> fits;
   for (std::size_t n = 0; n < effects.size(); ++n)
-    fits.push_back(result_of(effects[n], least.square,
-                             std::span(least.sigma).subspan(first[n], first[n + 1] - first[n])));
+    fits.push_back(result_of(effects[n], minimum.square,
+                             std::span(minimum.sigma).subspan(first[n], first[n + 1] - first[n])));
   return fits;
 }
 

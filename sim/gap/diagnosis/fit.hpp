@@ -28,9 +28,9 @@ bool is_at_bound(const effects::Parameter& neutral, double value);
 /// Whether the first parameter of an effect, its size, is at a bound.
 bool has_size_at_bound(const effects::Placed& placed);
 
-/// Fits the effect `more` to `episodes`, in addition to `base`. Starts at its values unless they
+/// Fits the effect `added` to `episodes`, in addition to `base`. Starts at its values unless they
 /// are neutral.
-Fit fit(const Evaluator& evaluator, const Evaluation& base, const effects::Placed& more,
+Fit fit(const Evaluator& evaluator, const Evaluation& base, const effects::Placed& added,
         std::span<const std::size_t> episodes, const FitOptions& options = {});
 
 /// Fits several effects jointly, starting at their values.

@@ -35,18 +35,18 @@ std::vector<effects::Placed> initial_guesses(const Evaluator& evaluator,
 }
 
 effects::Placed best_initial_guess(const Evaluator& evaluator, const Evaluation& base,
-                                   const effects::Placed& more,
+                                   const effects::Placed& effect,
                                    std::span<const std::size_t> episodes) {
   constexpr double parameter_price = 0.01;  // of each after the first, relative to the gap; chosen
-  effects::Placed best = more;
-  if (!is_neutral(more)) return best;
+  effects::Placed best = effect;
+  if (!is_neutral(effect)) return best;
   const ScoreBlock total = sum(evaluator.blocks(base, episodes));
   const double before = total.square,
                gap = std::max(0.0, before - static_cast<double>(total.windows));
-  auto all = initial_guesses(evaluator, more, episodes);
+  auto all = initial_guesses(evaluator, effect, episodes);
   // Fractions of the bounds, for laws that are nonlinear at their neutral value; chosen.
   for (const double fraction : {0.1, 0.02, -0.1}) {
-    all.push_back(more);
+    all.push_back(effect);
     const effects::Parameter first = effects::parameters(all.back().effect)[0];
     *first.value = fraction * (fraction > 0 ? first.bounds.high : -first.bounds.low);
     if (*first.value == 0) all.pop_back();
@@ -56,9 +56,10 @@ effects::Placed best_initial_guess(const Evaluator& evaluator, const Evaluation&
     return sum(evaluator.blocks(evaluator.with(base, one, episodes), episodes)).square +
            parameter_price * gap * static_cast<double>(extra);
   };
-  double least = before;
+  double smallest_cost = before;
   for (const effects::Placed& one : all)
-    if (const double guess_cost = cost(one); guess_cost < least) least = guess_cost, best = one;
+    if (const double guess_cost = cost(one); guess_cost < smallest_cost)
+      smallest_cost = guess_cost, best = one;
   return best;
 }
 

@@ -18,9 +18,9 @@ std::vector<effects::Placed> initial_guesses(const Evaluator& evaluator,
                                              std::span<const std::size_t> episodes);
 
 /// Returns the initial guess, or the fraction of the first parameter's bounds, with the smallest Σ
-/// z² in addition to `base`. Returns `more` if it is not neutral, or if no guess is better.
+/// z² in addition to `base`. Returns `effect` if it is not neutral, or if no guess is better.
 effects::Placed best_initial_guess(const Evaluator& evaluator, const Evaluation& base,
-                                   const effects::Placed& more,
+                                   const effects::Placed& effect,
                                    std::span<const std::size_t> episodes);
 
 }  // namespace sim::diagnosis

@@ -116,14 +116,14 @@ Evaluator evaluator_of(const Problem& problem, const erp::Robot& robot) {
 /// The robot as built with a subset of its causes: its effects, then its constants that are far
 /// off.
 erp::Robot robot_with(const estimation::AsBuilt& built, const std::vector<bool>& is_included) {
-  estimation::Point some = built.estimate.point;
-  const std::size_t effects = some.effects.size();
+  estimation::Point reduced_point = built.estimate.point;
+  const std::size_t effects = reduced_point.effects.size();
   for (std::size_t k = is_included.size(); k-- > 0;) {
     if (is_included[k]) continue;
-    if (k < effects) some.effects.erase(some.effects.begin() + std::ptrdiff_t(k));
-    else some.x[built.beyond_tolerance[k - effects]] = 0;
+    if (k < effects) reduced_point.effects.erase(reduced_point.effects.begin() + std::ptrdiff_t(k));
+    else reduced_point.x[built.beyond_tolerance[k - effects]] = 0;
   }
-  return estimation::robot_at(built.uncertain, some);
+  return estimation::robot_at(built.uncertain, reduced_point);
 }
 
 /// Sets the Shapley value of each cause as its gain. Returns the interaction.

@@ -73,9 +73,10 @@ StageGap gap_of(const StageWindows& collected, const LocalizationOptions& option
   gap.rms = gap.floor * std::sqrt(std::max(0.0, gap.excess + 1));
   gap.excess_interval = interval_of(collected.blocks, options);
   gap.judged = gap.windows >= options.least_windows;
-  constexpr std::size_t enough = 10;  // windows of a block; chosen
+  constexpr std::size_t fewest_windows = 10;  // windows of a block; chosen
   for (const ScoreBlock& block : collected.blocks)
-    if (block.windows >= enough) gap.worst_excess = std::max(gap.worst_excess, excess_of(block));
+    if (block.windows >= fewest_windows)
+      gap.worst_excess = std::max(gap.worst_excess, excess_of(block));
   gap.open = gap.judged && (gap.excess_interval.low > options.practical_excess ||
                             gap.worst_excess > options.block_excess);
   return gap;

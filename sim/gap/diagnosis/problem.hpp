@@ -37,12 +37,12 @@ struct Problem {
   DiagnoseOptions options;
   Sets sets;
 
-  void report_progress(const std::string& what, double share) const {
-    if (options.progress) options.progress(what, share);
+  void report_progress(const std::string& step, double fraction) const {
+    if (options.progress) options.progress(step, fraction);
   }
   LocalizationOptions localization_options() const { return {.seed = options.seed}; }
-  /// The progress of the ranking is reported as `from` … `to`.
-  RankingOptions ranking_options(double from = 0, double to = 0) const;
+  /// The progress of the ranking is reported as `begin` … `end`.
+  RankingOptions ranking_options(double begin = 0, double end = 0) const;
 };
 
 }  // namespace sim::diagnosis

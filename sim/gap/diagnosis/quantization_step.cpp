@@ -71,15 +71,17 @@ struct Steps {
 std::vector<ShortInterval> short_intervals(const std::vector<double>& values, Steps steps,
                                            double length) {
   constexpr std::size_t max_count = 5;  // chosen
-  constexpr double least = 0.7;  // true steps exceed it despite outliers and rounding; chosen
+  constexpr double least_coherence =
+      0.7;  // true steps exceed it despite outliers and rounding; chosen
   std::vector<ShortInterval> all, selected;
   for (auto begin = values.begin(); begin != values.end();) {
     const auto end = std::upper_bound(begin, values.end(), *begin + length * steps.guess);
     if (std::size_t(end - begin) >= fewest)
-      all.push_back({{begin, end},
-                     std::max(least, significant_coherence(
-                                         std::size_t(end - begin), *(end - 1) - *begin,
-                                         steps.widest() - steps.narrowest(), steps.guess))});
+      all.push_back(
+          {{begin, end},
+           std::max(least_coherence,
+                    significant_coherence(std::size_t(end - begin), *(end - 1) - *begin,
+                                          steps.widest() - steps.narrowest(), steps.guess))});
     begin = end;
   }
   const std::size_t count = std::min(max_count, all.size());

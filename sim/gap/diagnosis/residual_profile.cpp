@@ -189,15 +189,15 @@ double explained_by_one_variable(const Evaluator& evaluator, const Evaluation& e
   const double baseline = remaining_residual(mean_of(training.residual), held_out_sample.residual);
   const double beyond_noise = remaining_residual(0, held_out_sample.residual) -
                               static_cast<double>(held_out_sample.residual.size());
-  double most = 0;
+  double largest = 0;
   for (std::size_t v = 0; v < training.variables.size(); ++v) {
     if (training.variables[v].name == time_name) continue;
     const Map map = map_of(training.variables[v].value, training.residual);
     const double remaining =
         remaining_residual(map, held_out_sample.variables[v].value, held_out_sample.residual);
-    most = std::max(most, beyond_noise > 0 ? (baseline - remaining) / beyond_noise : 0);
+    largest = std::max(largest, beyond_noise > 0 ? (baseline - remaining) / beyond_noise : 0);
   }
-  return most;
+  return largest;
 }
 
 std::vector<Region> regions(const Evaluator& evaluator, const Evaluation& evaluation,

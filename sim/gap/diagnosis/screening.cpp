@@ -120,14 +120,14 @@ std::vector<Placed> perturbations(const Placed& neutral) {
   effects::AnyEffect counted = neutral.effect;
   const std::size_t count = effects::parameters(counted).size();
   for (std::size_t k = 0; k < count; ++k)
-    for (const double share : {small, 0.1}) {
+    for (const double fraction : {small, 0.1}) {
       Placed perturbed = neutral;
       const auto parameters = effects::parameters(perturbed.effect);
       if (!parameters[k].fitted) continue;
       for (std::size_t other = 0; other < k; ++other)
         *parameters[other].value += small * parameters[other].bounds.high;
       const auto& [low, high] = parameters[k].bounds;
-      *parameters[k].value += share * (high > 0 ? high : low);
+      *parameters[k].value += fraction * (high > 0 ? high : low);
       all.push_back(std::move(perturbed));
     }
   return all;

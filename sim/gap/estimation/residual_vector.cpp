@@ -114,8 +114,8 @@ std::vector<double> ResidualVector::floors(const Explained& explained) const {
 
 /// Replaces the disturbed episodes by their first parts if every stage has enough windows in them.
 void ResidualVector::cut_disturbed(const erp::Robot& robot, const Explained& nominal) {
-  constexpr double part = 1 / 3.0;     // of the rows; chosen
-  constexpr double enough = part / 2;  // of the windows; chosen
+  constexpr double part = 1 / 3.0;            // of the rows; chosen
+  constexpr double least_windows = part / 2;  // of the windows; chosen
   const std::vector<Changes> whole_changes = changes_by_stage(nominal);
   std::vector<residuals::Episode> first = disturbed_;
   Explained cut_nominal{nominal.real, {}};
@@ -128,7 +128,7 @@ void ResidualVector::cut_disturbed(const erp::Robot& robot, const Explained& nom
   std::vector<Changes> first_changes = changes_by_stage(cut_nominal);
   const auto has_enough_windows = [&](std::size_t s) {
     return double(first_changes[s].squares.size()) >=
-           enough * double(whole_changes[s].squares.size());
+           least_windows * double(whole_changes[s].squares.size());
   };
   if (std::ranges::all_of(std::views::iota(std::size_t(0), stages_), has_enough_windows))
     disturbed_ = std::move(first);

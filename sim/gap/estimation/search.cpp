@@ -217,16 +217,16 @@ JudgedEstimate Search::exchanged(JudgedEstimate found) const {
   return found;
 }
 
-JudgedEstimate Search::run(JudgedEstimate found, std::size_t most) const {
-  const std::size_t rounds = 2 * most;  // a removed effect may be added again
+JudgedEstimate Search::run(JudgedEstimate found, std::size_t max_effects) const {
+  const std::size_t rounds = 2 * max_effects;  // a removed effect may be added again
   for (std::size_t round = 0;
-       round < rounds && has_open_stage(found) && found.train.point.effects.size() < most;
+       round < rounds && has_open_stage(found) && found.train.point.effects.size() < max_effects;
        ++round) {
     if (options_.progress)
-      options_.progress("effects", double(found.train.point.effects.size()) / double(most));
-    auto more = with_best_candidate(found);
-    if (!more || !relieves(*more, found)) break;
-    found = exchanged(std::move(*more));
+      options_.progress("effects", double(found.train.point.effects.size()) / double(max_effects));
+    auto extended = with_best_candidate(found);
+    if (!extended || !relieves(*extended, found)) break;
+    found = exchanged(std::move(*extended));
   }
   return without_doubtful(std::move(found));
 }

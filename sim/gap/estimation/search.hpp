@@ -63,8 +63,9 @@ class Search {
   }
   /// Estimates from the given start.
   JudgedEstimate from(Point start) const;
-  /// Adds effects, up to `most` in total, while a stage is open and an effect lowers the cost.
-  JudgedEstimate run(JudgedEstimate found, std::size_t most) const;
+  /// Adds effects, up to `max_effects` in total, while a stage is open and an effect lowers the
+  /// cost.
+  JudgedEstimate run(JudgedEstimate found, std::size_t max_effects) const;
   /// Estimates `base` with each of the candidates by a few steps. Returns the cheapest first.
   std::vector<JudgedEstimate> with_each_candidate(const JudgedEstimate& base) const;
   /// Estimates the cheapest of `joined` until convergence. Empty if none costs less than `base`.

@@ -82,10 +82,10 @@ Sensitivities sensitivities(const Placed& shape, const std::vector<std::size_t>&
   const auto parameters = effects::parameters(probe);
   for (std::size_t n = 0; n < sizes.size(); ++n) {
     const bool is_amplitude = is_like(parameters[sizes[n]], parameters[sizes[0]]);
-    Placed around = shape;
-    if (!is_amplitude) *effects::parameters(around.effect)[sizes[0]].value += by[0];
+    Placed center = shape;
+    if (!is_amplitude) *effects::parameters(center.effect)[sizes[0]].value += by[0];
     Perturbed one = is_amplitude ? fitting_perturbation(shape, sizes[n], by[n], changed_by)
-                                 : perturbed(around, sizes[n], by[n], changed_by);
+                                 : perturbed(center, sizes[n], by[n], changed_by);
     by[n] = one.by;
     if (n == 0) all.d.resize(one.change.size(), Index(sizes.size()));
     all.d.col(Index(n)) = one.change;

@@ -184,8 +184,9 @@ class Layout {
   Signal held(const std::string& column) { return on_grid(grid_, table_.find(column)); }
 
  private:
-  static std::string rows(std::size_t count, const char* one, const char* more) {
-    return count == 1 ? std::string("1 row ") + one : std::to_string(count) + " rows " + more;
+  static std::string rows(std::size_t count, const char* singular, const char* plural) {
+    return count == 1 ? std::string("1 row ") + singular
+                      : std::to_string(count) + " rows " + plural;
   }
   void remark(const std::string& what) { remarks_.push_back(name_ + ": " + what); }
   const recording::Table& table_;

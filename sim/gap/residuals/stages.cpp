@@ -114,10 +114,10 @@ std::vector<PathTrace> Stages::paths_nearby(const JointTrace& joints,
   for (const std::size_t a : actuators) {
     PathTrace& path = paths.emplace_back(linearized.paths[a]);
     for (std::size_t h = 0; h < linearized.hinges.size() && !path.length_m.empty(); ++h) {
-      const Signal& now = joints.signals[linearized.hinges[h]].angle_rad;
+      const Signal& angle = joints.signals[linearized.hinges[h]].angle_rad;
       const Signal& linearized_at = linearized.pose[linearized.hinges[h]].angle_rad;
       for (std::size_t k = 0; k < path.length_m.size(); ++k)
-        path.length_m[k] += linearized.slope_m[a][h][k] * (now[k] - linearized_at[k]);
+        path.length_m[k] += linearized.slope_m[a][h][k] * (angle[k] - linearized_at[k]);
     }
   }
   return paths;

@@ -162,11 +162,11 @@ TEST_CASE("a constant column while others change gives one message that names th
 TEST_CASE(
     "with little motion a current that is constant in the whole recording is reported, a current "
     "that is constant from 1 s on is not") {
-  const auto constant_from = [](std::size_t from) {
+  const auto constant_from = [](std::size_t first_row) {
     Episode e = rig_recording::record(hinge_rig(), hinge_rig(),
                                       {.seconds = 8, .swing_N = 2, .ripple_N = 1});
     auto& current = e.actuators[0].current_A;
-    std::fill(current.begin() + std::ptrdiff_t(from), current.end(), 0.1);
+    std::fill(current.begin() + std::ptrdiff_t(first_row), current.end(), 0.1);
     return sim::checks::column_checks(e, hinge_rig());
   };
   check_reports(constant_from(0), "flexor.current_A is constant at 0.1 in the whole recording",

@@ -141,11 +141,13 @@ TEST_CASE(
   for (const Constant& c : constants_of(hinge_rig())) {
     if (c.on != "flexor") continue;
     if (c.name == "stiffness_N_per_m") {
-      const double from = c.value(2), step_N_per_m = 0.1 * from;
+      const double stiffness_N_per_m = c.value(2), step_N_per_m = 0.1 * stiffness_N_per_m;
       CHECK(1 / c.value(c.moved(2, step_N_per_m / c.tolerance)) ==
-            Approx(1 / from - step_N_per_m / (from * from)));
-      CHECK(c.value(c.moved(2, -10 * from / c.tolerance)) == Approx(from / 11));
-      CHECK(c.value(c.moved(2, 2 * from / c.tolerance)) == Approx(8 * from));
+            Approx(1 / stiffness_N_per_m - step_N_per_m / (stiffness_N_per_m * stiffness_N_per_m)));
+      CHECK(c.value(c.moved(2, -10 * stiffness_N_per_m / c.tolerance)) ==
+            Approx(stiffness_N_per_m / 11));
+      CHECK(c.value(c.moved(2, 2 * stiffness_N_per_m / c.tolerance)) ==
+            Approx(8 * stiffness_N_per_m));
     } else {
       CHECK(c.moved(2, 0.5) == 2.5);
     }
