@@ -17,7 +17,7 @@ erp::Robot read(const std::string& robot) {
 /// Four recordings of a robot with viscous friction in the gearbox of its first actuator.
 std::vector<Episode> recordings(const erp::Robot& robot, double seconds) {
   sim::blind::Case hidden = sim::blind::draw_case(robot, sim::blind::Kind::null, 1);
-  hidden.hidden_effects.chains[0].viscous = 0.02;
+  hidden.hidden_effects.channels[0].viscous = 0.02;
   std::vector<Episode> all;
   std::vector<std::string> remarks;
   for (int k = 0; k < 4; ++k)

@@ -37,7 +37,7 @@ Result diagnosed(const Case& c) {
     episodes.push_back(
         sim::residuals::lay_out(table, robot, std::to_string(episodes.size()), remarks));
   const sim::diagnosis::Evaluator evaluator(robot, episodes);
-  return {sim::diagnosis::diagnose(robot, episodes), sim::diagnosis::reversal_share(evaluator)};
+  return {sim::diagnosis::diagnose(robot, episodes), sim::diagnosis::reversal_fraction(evaluator)};
 }
 
 /// True value of an effect; 0 if the drive does not have it.

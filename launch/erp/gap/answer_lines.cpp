@@ -42,7 +42,8 @@ void print_location(const diagnosis::Diagnosis& d, std::ostream& out) {
 void print_constants(const diagnosis::Diagnosis& d, std::ostream& out) {
   if (d.constants.empty()) return;
   std::size_t determined = 0;
-  for (const auto& c : d.constants) determined += c.determined > sim::estimation::well_determined;
+  for (const auto& c : d.constants)
+    determined += c.determined > sim::estimation::determined_threshold;
   out << fmt::format(
       "constants   the recordings determine {} of {}; {} are beyond their tolerances\n", determined,
       d.constants.size(), std::ranges::count_if(d.constants, &diagnosis::ConstantEstimate::beyond));

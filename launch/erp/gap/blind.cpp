@@ -150,14 +150,14 @@ int blind_make(const BlindMakeOptions& options, std::ostream& out, std::ostream&
   const auto count = static_cast<std::size_t>(options.cases);
   std::vector<Json> truths(count), cases(count);
   const sim::blind::Visibility visibility(robot);
-  std::atomic<int> drawn_anew = 0, not_finite = 0;
+  std::atomic<int> rejected_draws = 0, not_finite = 0;
   std::size_t done = 0;
   std::mutex progress_mutex;
   Progress progress(remarks);
   sim::in_parallel(count, options.threads, [&](std::size_t k) {
     const std::string name = fmt::format("case_{:04}", k + 1);
     const Recorded recorded = record_case(robot, kind, options.seed + k, options, visibility);
-    drawn_anew += recorded.blind.drawn_anew, not_finite += recorded.not_finite;
+    rejected_draws += recorded.blind.rejected_draws, not_finite += recorded.not_finite;
     fs::create_directories(options.out + "/" + name);
     Json files = Json::array();
     for (std::size_t r = 0; r < recorded.csv.size(); ++r) {
@@ -178,9 +178,9 @@ int blind_make(const BlindMakeOptions& options, std::ostream& out, std::ostream&
   write_file(options.out + "/cases.json", manifest.dump(1) + "\n");
   out << fmt::format("{} {} in {}\ntruth       {}\nsha256      {}\n", count,
                      count == 1 ? "case" : "cases", options.out, options.truth, sha256(truth));
-  if (drawn_anew > 0)
+  if (rejected_draws > 0)
     out << fmt::format("redrawn     {} whose hidden effect changed no reading\n",
-                       drawn_anew.load());
+                       rejected_draws.load());
   if (not_finite > 0)
     out << fmt::format("redrawn     {} whose motion was not finite\n", not_finite.load());
   return 0;

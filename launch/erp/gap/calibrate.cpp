@@ -23,10 +23,10 @@ void print_row(const estimation::AsBuilt& built, std::size_t k, std::ostream& ou
   const double x = built.estimate.point.x[k],
                half_interval = quantile_97_5 * built.estimate.sigma(k);
   constexpr double limit = 3;  // in tolerances and in standard errors; chosen
-  const bool is_beyond = std::ranges::count(built.beyond, k) > 0 ||
+  const bool is_beyond = std::ranges::count(built.beyond_tolerance, k) > 0 ||
                          (std::abs(x) > limit && std::abs(x) > limit * built.estimate.sigma(k));
   const char* remark = is_beyond ? "beyond its tolerance"
-                       : estimation::determined(built, k) < estimation::well_determined
+                       : estimation::determined(built, k) < estimation::determined_threshold
                            ? "not determined"
                            : "";
   out << fmt::format("{:<16} {:<28} {:>11.5g} {:>11.5g} {:>11.5g} … {:<11.5g} {}\n", c.on, c.name,

@@ -19,7 +19,7 @@ std::vector<residuals::Episode> held_out_of(const diagnosis::Diagnosis& d,
   std::vector<residuals::Episode> held_out;
   for (const auto& e : episodes)
     if (std::ranges::count(d.held_out, e.name)) held_out.push_back(e);
-  for (const auto& [recording, judged_from_s] : d.shared)
+  for (const auto& [recording, judged_from_s] : d.split_recordings)
     if (const auto e = std::ranges::find(held_out, recording, &residuals::Episode::name);
         e != held_out.end())
       e->judge_from(judged_from_s);

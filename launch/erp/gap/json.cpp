@@ -40,7 +40,7 @@ Json json_of(const IdentifiedEffect& n) {
           {"supported", n.supported}};
 }
 
-Json json_of(const Closed& c) {
+Json json_of(const ClosedGap& c) {
   Json json{{"unit", c.unit},
             {"before", rounded(c.before)},
             {"floor", rounded(c.floor)},
@@ -52,9 +52,9 @@ Json json_of(const Closed& c) {
 }
 
 /// Channels by name. The closure of a channel without a gap is null.
-Json channels_of(const std::vector<Closed>& channels) {
+Json channels_of(const std::vector<ClosedGap>& channels) {
   Json all = Json::object();
-  for (const Closed& c : channels) {
+  for (const ClosedGap& c : channels) {
     Json& json = all[c.channel] = json_of(c);
     if (!c.has_gap()) json["closed"] = json["closed_interval"] = nullptr;
   }
@@ -129,7 +129,7 @@ Json confounders_of(const Diagnosis& d) {
 /// starts.
 Json validation_starts(const sim::diagnosis::Diagnosis& d) {
   Json all = Json::object();
-  for (const auto& entry : d.shared) all[entry.recording] = entry.judged_from_s;
+  for (const auto& entry : d.split_recordings) all[entry.recording] = entry.judged_from_s;
   return all;
 }
 

@@ -79,13 +79,13 @@ std::string column_warning(const sim::diagnosis::Diagnosis& d, const erp::Robot&
 
 }  // namespace
 
-std::string closure_text(const sim::diagnosis::Closed& c) {
+std::string closure_text(const sim::diagnosis::ClosedGap& c) {
   if (c.before <= c.floor && c.after <= gap_limit * c.floor) return "within the noise";
   if (c.after > c.before) return fmt::format("{:.1f} times as large", c.after / c.before);
   return fmt::format("{:.1f} % closed", 100 * std::min(1.0, c.closed));
 }
 
-std::string closure_interval(const sim::diagnosis::Closed& c) {
+std::string closure_interval(const sim::diagnosis::ClosedGap& c) {
   if (c.before <= c.floor || c.after > c.before) return "";
   return fmt::format(" ({:.1f} … {:.1f} %)", 100 * std::min(1.0, c.interval.low),
                      100 * std::min(1.0, c.interval.high));
@@ -94,7 +94,8 @@ std::string closure_interval(const sim::diagnosis::Closed& c) {
 std::string validation_data(const sim::diagnosis::Diagnosis& d) {
   if (!d.uses_held_out_data()) return "the training data";
   const bool only_parts = std::ranges::all_of(d.held_out, [&](const std::string& name) {
-    return std::ranges::count(d.shared, name, &sim::diagnosis::Shared::recording) > 0;
+    return std::ranges::count(d.split_recordings, name,
+                              &sim::diagnosis::SplitRecording::recording) > 0;
   });
   return only_parts ? "the rest of the recording" : "held-out recordings";
 }
@@ -109,7 +110,7 @@ std::string fixed_parameters(const IdentifiedEffect& n) {
 
 bool deviates(const sim::diagnosis::ConstantEstimate& c) {
   constexpr double min_deviation = 0.5;  // tolerances; smallest reported deviation; chosen
-  return c.determined > sim::estimation::well_determined &&
+  return c.determined > sim::estimation::determined_threshold &&
          (c.interval.low > c.nominal || c.interval.high < c.nominal) &&
          std::abs(c.value - c.nominal) > min_deviation * c.tolerance;
 }
@@ -136,7 +137,8 @@ std::string zero_offset_warning(const std::vector<sim::diagnosis::IdentifiedEffe
   return "";
 }
 
-std::string free_run_warning(const sim::diagnosis::Diagnosis& d, const sim::diagnosis::Closed& c) {
+std::string free_run_warning(const sim::diagnosis::Diagnosis& d,
+                             const sim::diagnosis::ClosedGap& c) {
   constexpr double min_closure = 0.5;  // gap closure; chosen
   if (d.verdict == sim::diagnosis::Verdict::no_gap)
     return c.before <= no_gap_limit * c.floor
@@ -159,7 +161,7 @@ std::string free_run_warning(const sim::diagnosis::Diagnosis& d, const sim::diag
 }
 
 std::vector<std::string> answer_warnings(const sim::diagnosis::Diagnosis& d,
-                                         const sim::diagnosis::Closed& free_run,
+                                         const sim::diagnosis::ClosedGap& free_run,
                                          const erp::Robot& robot) {
   std::vector<std::string> warnings{free_run_warning(d, free_run)};
   if (d.verdict == sim::diagnosis::Verdict::supported)

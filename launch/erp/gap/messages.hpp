@@ -9,10 +9,10 @@ namespace launch::gap {
 
 /// Gap closure as text: "98.2 % closed", at most 100 % because the excess is noise; "within the
 /// noise" if there was no gap; "2.0 times as large" if the error increased.
-std::string closure_text(const sim::diagnosis::Closed& closed);
+std::string closure_text(const sim::diagnosis::ClosedGap& closed);
 
 /// Interval of the gap closure: " (98.1 … 98.4 %)"; empty if closure_text gives no percentage.
-std::string closure_interval(const sim::diagnosis::Closed& closed);
+std::string closure_interval(const sim::diagnosis::ClosedGap& closed);
 
 /// Name of the validation data: "held-out recordings", "the rest of the recording", or "the
 /// training data".
@@ -37,13 +37,13 @@ std::string zero_offset_warning(const std::vector<sim::diagnosis::IdentifiedEffe
 /// Warning if the free-run error remains large: the identified effects may not be the cause, or a
 /// model without a gap may still differ from the robot. Empty if the error is small.
 std::string free_run_warning(const sim::diagnosis::Diagnosis& diagnosis,
-                             const sim::diagnosis::Closed& free_run);
+                             const sim::diagnosis::ClosedGap& free_run);
 
 /// All warnings about an answer: its free run, a residual that it raises above the noise floor, a
 /// wrong encoder zero, and a scaled time column or a delayed column that would cause the same
 /// residuals.
 std::vector<std::string> answer_warnings(const sim::diagnosis::Diagnosis& diagnosis,
-                                         const sim::diagnosis::Closed& free_run,
+                                         const sim::diagnosis::ClosedGap& free_run,
                                          const erp::Robot& robot);
 
 }  // namespace launch::gap

@@ -106,8 +106,8 @@ void print(const closed_loop::Experiment& experiment, const erp::Robot& robot,
   for (std::size_t k = 0; k < std::min(max_rows, experiment.candidates.size()); ++k) {
     const auto& c = experiment.candidates[k];
     out << fmt::format("{:<12}{:<18} {:>6} {:>12.1f} {:>8.0f} %  {}\n", k ? "" : "candidates",
-                       sim::excitation_name(robot, c.kind), c.seed, c.least,
-                       100 * c.extremes.of_max_tension, c.unsafe);
+                       sim::excitation_name(robot, c.kind), c.seed, c.least_split,
+                       100 * c.extremes.tension_fraction, c.unsafe);
   }
   if (suspects.size() < 3) return;  // with two suspects the table contains the difference
   const auto& split = experiment.candidates.front().split;
@@ -142,7 +142,7 @@ closed_loop::Experiment search(const erp::Robot& robot, const std::vector<Placed
                                                 .candidates = options.candidates,
                                                 .threads = options.threads,
                                                 .seed = options.seed,
-                                                .to_stop_rad = options.to_stop_rad};
+                                                .stop_distance_rad = options.to_stop_rad};
   search_options.progress = [&](double share) {
     const std::lock_guard lock(progress_mutex);
     progress.show("simulations", share);
@@ -229,7 +229,7 @@ int plan(const PlanOptions& options, std::ostream& out, std::ostream& remarks) {
     return 1;
   }
   const auto& best_candidate = experiment.candidates.front();
-  if (best_candidate.least < min_sigma) {
+  if (best_candidate.least_split < min_sigma) {
     out << (suspects.size() == 1
                 ? "no excitation distinguishes it from the robot without it; this needs another "
                   "sensor\n"
@@ -238,14 +238,16 @@ int plan(const PlanOptions& options, std::ostream& out, std::ostream& remarks) {
   }
   write_graph(options.out, options.robot, robot, experiment.chosen);
   out << fmt::format("chosen      largest tension {:.0f} % of the limit ({})",
-                     100 * best_candidate.extremes.of_max_tension,
-                     best_candidate.extremes.tightest);
-  if (!best_candidate.extremes.nearest.empty())
+                     100 * best_candidate.extremes.tension_fraction,
+                     best_candidate.extremes.tension_actuator);
+  if (!best_candidate.extremes.stop_joint.empty())
     out << fmt::format(", smallest distance to a stop {:.3f} rad ({})",
-                       best_candidate.extremes.to_stop_rad, best_candidate.extremes.nearest);
-  if (!best_candidate.extremes.slowest.empty())
+                       best_candidate.extremes.stop_distance_rad,
+                       best_candidate.extremes.stop_joint);
+  if (!best_candidate.extremes.saturated_actuator.empty())
     out << fmt::format(", full voltage for {:.0f} % of the time ({})",
-                       100 * best_candidate.extremes.saturated, best_candidate.extremes.slowest);
+                       100 * best_candidate.extremes.saturated_fraction,
+                       best_candidate.extremes.saturated_actuator);
   out << fmt::format(
       "\nnext        erp launch {}/graph.xml --for {:g}s        on the robot, add --device can\n",
       options.out, options.seconds);

@@ -114,8 +114,8 @@ Reading read_episodes(const erp::Robot& robot, const std::vector<std::string>& r
   read.suspicious = suspicious.take();
   residuals::keep_common(read.episodes, robot, read.corrections);
   sim::estimation::repair_defective_rows(read.episodes, read.corrections);
-  sim::estimation::undo(sim::estimation::row_timing(read.episodes), read.episodes,
-                        read.corrections);
+  sim::estimation::compensate(sim::estimation::row_timing(read.episodes), read.episodes,
+                              read.corrections);
   sim::estimation::apply_limits(robot, read.episodes, read.corrections);
   return read;
 }

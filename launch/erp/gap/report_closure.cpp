@@ -13,9 +13,14 @@ using xml::escaped;
 
 namespace {
 
+<<<<<<< HEAD:launch/erp/gap/report_closure.cpp
 /// Gap closure of a channel in percent; without a gap, a text.
 std::string closed_of(const Closed& c, bool with_interval) {
   constexpr double new_gap_factor = 1.5;  // chosen
+=======
+/// Gap closure of a channel; text where a percentage has no meaning.
+std::string closed_of(const ClosedGap& c, bool with_interval) {
+>>>>>>> w1:launch/erp/gap/report_how_far.cpp
   if (!c.has_gap())
     return c.after > new_gap_factor * std::max(c.before, c.floor) ? "no gap before, gap after"
                                                                   : "–";
@@ -34,7 +39,7 @@ std::string page::stages(const Diagnosis& d) {
   std::string html =
       "<table><tr><th>stage</th><th>residual before</th><th>noise</th><th>residual after</th>"
       "<th>closed</th><th>share of the stage's input, before</th><th>after</th></tr>\n";
-  for (const Closed& c : d.channels)
+  for (const ClosedGap& c : d.channels)
     html += fmt::format(
         "<tr><td>{}</td><td>{:.3g} {}</td><td>{:.3g}</td><td>{:.3g}</td><td>{}</td>"
         "<td>{}</td><td>{}</td></tr>\n",
@@ -52,7 +57,7 @@ std::string page::free_run(const Diagnosis& d, const sim::closed_loop::FreeRun& 
       "<th>closed</th></tr>\n",
       validation_data(d), run.all.before, run.all.after, closure_text(run.all),
       closure_interval(run.all));
-  for (const Closed& c : run.channels)
+  for (const ClosedGap& c : run.channels)
     html += fmt::format(
         "<tr><td>{}</td><td>{:.3g} {}</td><td>{:.3g}</td><td>{:.3g}</td><td>{}</td></tr>\n",
         escaped(c.channel), c.before, c.unit, c.floor, c.after, closed_of(c, false));

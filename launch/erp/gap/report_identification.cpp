@@ -25,6 +25,7 @@ std::string page::ranking(const Diagnosis& d) {
   std::vector<std::vector<double>> cells;
   for (const StageGap& gap : d.stages)
     columns.push_back(fmt::format("{} {}", sim::effects::word(gap.stage), gap.on));
+<<<<<<< HEAD:launch/erp/gap/report_identification.cpp
   for (std::size_t k = 0; k < d.ranked.size() && k < max_effects; ++k) {
     const IdentifiedEffect& effect = d.ranked[k];
     bars.push_back({name_of(effect), fmt::format("{:.1f} %", 100 * effect.gain), effect.gain,
@@ -33,6 +34,15 @@ std::string page::ranking(const Diagnosis& d) {
     if (effect.signature.empty() || columns.size() > max_columns) continue;
     rows.push_back(name_of(effect)), cells.push_back(effect.signature);
     cells.back().push_back(std::abs(effect.likeness));
+=======
+  for (std::size_t k = 0; k < d.ranked.size() && k < most; ++k) {
+    const IdentifiedEffect& n = d.ranked[k];
+    bars.push_back({name_of(n), fmt::format("{:.1f} %", 100 * n.gain), n.gain, n.gain_interval.low,
+                    n.gain_interval.high, n.supported});
+    if (n.signature.empty() || columns.size() > 24) continue;
+    rows.push_back(name_of(n)), cells.push_back(n.signature);
+    cells.back().push_back(std::abs(n.similarity));
+>>>>>>> w1:launch/erp/gap/report_which.cpp
   }
   columns.push_back("similarity to the first");
   std::string html =
@@ -53,9 +63,9 @@ std::string page::ranking(const Diagnosis& d) {
 namespace {
 
 std::string row_of(const ConstantEstimate& c) {
-  const char* remark = c.beyond                                          ? "beyond its tolerance"
-                       : c.determined < sim::estimation::well_determined ? "not determined"
-                                                                         : "";
+  const char* remark = c.beyond ? "beyond its tolerance"
+                       : c.determined < sim::estimation::determined_threshold ? "not determined"
+                                                                              : "";
   return fmt::format(
       "<tr><td>{}</td><td>{}</td><td>{:.4g}</td><td>{:.4g}</td><td>{:.4g} … "
       "{:.4g}</td><td>{}</td></tr>\n",

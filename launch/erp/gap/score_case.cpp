@@ -189,7 +189,7 @@ void score_null(const Json& truth, const Json& d, Score& score) {
 void count_numbers(const Json& truth, const Json& d, Rate& rate) {
   for (const Json& number : truth["numbers"])
     if (const Json c = constant_of(number, d);
-        !c.is_null() && c["determined"] > sim::estimation::well_determined)
+        !c.is_null() && c["determined"] > sim::estimation::determined_threshold)
       rate.count(c["interval"][0] <= number["value"] && number["value"] <= c["interval"][1]);
 }
 

@@ -54,7 +54,8 @@ std::optional<double> closed_by_truth(const std::string& folder,
   const auto rms = [](const diagnosis::ScoreBlock& block) {
     return std::sqrt(block.square / static_cast<double>(std::max<std::size_t>(1, block.windows)));
   };
-  const double error_before = rms(sum(evaluator.blocks(evaluator.bare(), all_episodes)));
+  const double error_before =
+      rms(sum(evaluator.blocks(evaluator.nominal_evaluation(), all_episodes)));
   const double error_after =
       rms(sum(evaluator.blocks(evaluator.with(hidden, all_episodes), all_episodes)));
   return error_before > 1 ? (error_before - error_after) / (error_before - 1) : 0;

@@ -42,8 +42,9 @@ Bus evaluate_bus(const erp::Robot& robot, const std::vector<residuals::Episode>&
   for (const auto& e : episodes) bus.ages.push_back(diagnosis::command_ages(e, robot));
   bus.has_bus = robot.drives.empty(),
   bus.is_evaluated = bus.has_bus && diagnosis::has_enough_ages(bus.ages);
-  bus.voltage_delay_s = episodes.empty() ? 0 : episodes[0].voltage_late_s;
-  bus.is_delayed = bus.is_evaluated && diagnosis::late_share(bus.ages) > diagnosis::practical_late;
+  bus.voltage_delay_s = episodes.empty() ? 0 : episodes[0].voltage_delay_s;
+  bus.is_delayed = bus.is_evaluated &&
+                   diagnosis::delayed_fraction(bus.ages) > diagnosis::negligible_delayed_fraction;
   const auto fits = diagnosis::fit_bus(bus.ages, bus.ages, robot, {});
   bus.is_explained = !fits.empty() && fits[0].supported;
   return bus;
@@ -68,12 +69,12 @@ bool print_summary(const erp::Robot& robot, const std::vector<diagnosis::StageGa
         "in {:.0f} % of the ticks with a new command the ECUs appear to have executed an older "
         "command, but no effect of the bus explains the ages; check the tension and shaft columns, "
         "whose errors look the same\n",
-        100 * diagnosis::late_share(bus.ages));
+        100 * diagnosis::delayed_fraction(bus.ages));
   else if (bus.is_delayed)
     out << fmt::format(
         "the bus is late: in {:.0f} % of the ticks with a new command the ECUs executed an older "
         "command, {:.3g} ms old on average\n",
-        100 * diagnosis::late_share(bus.ages), 1e3 * diagnosis::mean_age_s(bus.ages));
+        100 * diagnosis::delayed_fraction(bus.ages), 1e3 * diagnosis::mean_age_s(bus.ages));
   if (const double delay_s = bus.voltage_delay_s; delay_s > 0)
     out << fmt::format(
         "the bus is late: voltages act {:.3g} ms after their rows, or all sensors lag by that "

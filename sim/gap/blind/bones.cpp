@@ -1,4 +1,5 @@
-// Motion of the bones of a blind robot: friction, springs and stops of its joints, H q̈ = τ − C − τ_G.
+// Motion of the bones of a blind robot: friction, springs and stops of its joints, H q̈ = τ − C −
+// τ_G.
 #include <algorithm>
 #include <cmath>
 
@@ -8,40 +9,45 @@
 namespace sim::blind {
 namespace {
 
-namespace c = chain_state;
+namespace c = channel_state;
 namespace j = joint_state;
 
-constexpr double reach_rad = 2e-4, settles_s = 2e-3;  // of a bristle
-constexpr double stop_Nm_per_rad = 300, stop_Nm_s_per_rad = 1;
-constexpr double loose_s = 2e-4;  // time constant at the ends of the play: twice the step
+// Chosen: small against the motion of a joint, resolved by the integrator's step.
+constexpr double bristle_travel_rad = 2e-4, bristle_damping_s = 2e-3;
+constexpr double max_deflection = 1.2;  // of a bristle with its damping; chosen
+constexpr double stop_Nm_per_rad = 300, stop_Nm_s_per_rad = 1;  // chosen: stiff against tendons
+constexpr double play_time_constant_s = 2e-4;  // at the ends of the play: twice the step
 
-/// Friction torque of a joint about one of its axes; ds: rate of its bristle.
+/// Friction torque of a joint about one axis with velocity v; speed: of all axes; ds: rate of the
+/// bristle.
 double friction(const erp::Joint& joint, const JointEffects& q, double speed, double v,
                 double bristle, double& ds) {
   const double dry = std::max(0.0, joint.coulomb_Nm + q.dry_Nm) +
                      q.stribeck_Nm * std::exp(-speed / q.stribeck_rad_per_s);
-  ds = (v - speed * bristle) / bristle_reach(reach_rad, speed);
-  const double bent = std::clamp(bristle + settles_s * ds, -1.2, 1.2);
-  return -std::max(0.0, joint.viscous_Nm_s_per_rad + q.viscous) * v - dry * bent -
+  ds = (v - speed * bristle) / bristle_travel(bristle_travel_rad, speed);
+  const double deflection =
+      std::clamp(bristle + bristle_damping_s * ds, -max_deflection, max_deflection);
+  return -std::max(0.0, joint.viscous_Nm_s_per_rad + q.viscous) * v - dry * deflection -
          q.drag * v * std::abs(v);
 }
 
 /// Torque of the spring and the stops of a hinge.
 double spring_and_stops(const erp::Joint& joint, const JointEffects& q, double angle, double v) {
   double torque = -q.spring * (angle - q.rest_rad);
-  const double over = angle - (joint.max_rad - q.max_in_rad);
-  const double under = joint.min_rad + q.min_in_rad - angle;
+  const double over = angle - (joint.max_rad - q.early_max_rad);
+  const double under = joint.min_rad + q.early_min_rad - angle;
   if (over > 0) torque -= std::max(0.0, stop_Nm_per_rad * over + stop_Nm_s_per_rad * v);
   if (under > 0) torque += std::max(0.0, stop_Nm_per_rad * under - stop_Nm_s_per_rad * v);
   return torque;
 }
 
-/// Play and low-pass of a hinge's sensor.
+/// Play and low-pass of the sensor of a hinge.
 void sense(const JointEffects& q, const double* s, double* ds) {
-  const double off = s[j::position] - s[j::bearing], half = q.loose_rad / 2;
-  ds[j::bearing] = (std::max(0.0, off - half) + std::min(0.0, off + half)) / loose_s;
-  const double seen = q.loose_rad > 0 ? s[j::bearing] : s[j::position];
-  ds[j::reading] = q.angle.lag_s > 0 ? (seen - s[j::reading]) / q.angle.lag_s : 0;
+  const double offset = s[j::position] - s[j::bearing], half = q.play_rad / 2;
+  ds[j::bearing] =
+      (std::max(0.0, offset - half) + std::min(0.0, offset + half)) / play_time_constant_s;
+  const double sensor_input = q.play_rad > 0 ? s[j::bearing] : s[j::position];
+  ds[j::reading] = q.angle.lag_s > 0 ? (sensor_input - s[j::reading]) / q.angle.lag_s : 0;
 }
 
 /// q̇ = q ⊗ (0, ω)/2
@@ -54,9 +60,10 @@ void spin(const double* s, double* ds) {
 
 }  // namespace
 
-void Plant::move_bones(const State& x, const Eigen::VectorXd& pulled, double gust, State& dx) {
-  Eigen::VectorXd torque = pulled;
-  const std::size_t first_joint = chains_.size() * c::count;
+void Plant::move_bones(const State& x, const Eigen::VectorXd& tendon_torque, double gust,
+                       State& dx) {
+  Eigen::VectorXd torque = tendon_torque;
+  const std::size_t first_joint = channels_.size() * c::count;
   const auto at = [&](std::size_t n) { return first_joint + n * j::count; };
   const auto coordinates = [&](std::size_t n) {
     const int first = model_.first_of(static_cast<int>(n));

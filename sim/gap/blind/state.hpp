@@ -4,12 +4,12 @@
 /// Indices of the plant's state.
 namespace sim::blind {
 
-namespace chain_state {
+namespace channel_state {
 enum : std::size_t {
   current,
   shaft,
   speed,
-  bristle,  // motor and gearbox
+  bristle,  // of motor and gearbox
   spindle,
   spindle_speed,  // after play or a compliant shaft
   slip,           // line lost by slip
@@ -20,7 +20,7 @@ enum : std::size_t {
   slide3,
   line_bristle,
   heat,
-  aged,           // ageing of stiction
+  aged,           // ageing of stiction: 0 in motion, 1 after a long rest
   reading_shaft,  // after the low-pass
   reading_current,
   reading_tension,
@@ -38,16 +38,16 @@ enum : std::size_t {
 };
 }
 
-/// Motion after which a bristle is fully deflected. Longer at high speed, so that it takes at least one step of the
-/// integrator.
-inline double bristle_reach(double reach, double speed) {
-  constexpr double least_s = 1e-4;
-  return std::fmax(reach, least_s * std::abs(speed));
+/// Travel that deflects a bristle fully. It is longer at high speed: the deflection takes at least
+/// one step of the integrator.
+inline double bristle_travel(double travel, double speed) {
+  constexpr double min_duration_s = 1e-4;
+  return std::fmax(travel, min_duration_s * std::abs(speed));
 }
 
-/// ṡ of a bristle; `most`: its largest deflection.
-inline double bristle_rate(double s, double speed, double reach, double most = 1) {
-  return (speed - std::abs(speed) * s / most) / bristle_reach(reach, speed);
+/// ṡ = (v − |v| s)/δ of a bristle with deflection s, speed v and travel δ.
+inline double bristle_rate(double s, double speed, double travel) {
+  return (speed - std::abs(speed) * s) / bristle_travel(travel, speed);
 }
 
 }  // namespace sim::blind

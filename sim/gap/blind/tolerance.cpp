@@ -11,7 +11,7 @@
 namespace sim::blind {
 namespace {
 
-/// Returns the factor of the next constant.
+/// Returns the factor for the next constant.
 using Factor = std::function<double()>;
 
 /// Multiplies constants and lists them.
@@ -20,7 +20,7 @@ class Draw {
   Draw(Factor factor, std::vector<Drawn>& drawn) : factor_(std::move(factor)), drawn_(drawn) {}
 
   double factor() { return factor_(); }
-  void number(const std::string& on, const char* name, double& value) {
+  void multiply_constant(const std::string& on, const char* name, double& value) {
     if (value == 0) return;
     value *= factor();
     add(on, name, value);
@@ -35,28 +35,28 @@ class Draw {
 };
 
 void multiply(erp::MotorType& m, const std::string& on, Draw& draw) {
-  draw.number(on, "resistance_ohm", m.resistance_ohm);
-  draw.number(on, "inductance_H", m.inductance_H);
+  draw.multiply_constant(on, "resistance_ohm", m.resistance_ohm);
+  draw.multiply_constant(on, "inductance_H", m.inductance_H);
   const double magnet = draw.factor();
   m.back_emf_V_s_per_rad *= magnet, m.torque_Nm_per_A *= magnet;
   draw.add(on, "back_emf_V_s_per_rad", m.back_emf_V_s_per_rad);
   draw.add(on, "torque_Nm_per_A", m.torque_Nm_per_A);
-  draw.number(on, "gear_efficiency", m.gear_efficiency);
+  draw.multiply_constant(on, "gear_efficiency", m.gear_efficiency);
   m.gear_efficiency = std::min(m.gear_efficiency, 1.0);
-  draw.number(on, "rotor_inertia_kg_m2", m.rotor_inertia_kg_m2);
-  draw.number(on, "rotor_viscous_Nm_s_per_rad", m.rotor_viscous_Nm_s_per_rad);
-  draw.number(on, "gear_viscous_Nm_s_per_rad", m.gear_viscous_Nm_s_per_rad);
-  draw.number(on, "rotor_coulomb_Nm", m.rotor_coulomb_Nm);
-  draw.number(on, "gear_coulomb_Nm", m.gear_coulomb_Nm);
+  draw.multiply_constant(on, "rotor_inertia_kg_m2", m.rotor_inertia_kg_m2);
+  draw.multiply_constant(on, "rotor_viscous_Nm_s_per_rad", m.rotor_viscous_Nm_s_per_rad);
+  draw.multiply_constant(on, "gear_viscous_Nm_s_per_rad", m.gear_viscous_Nm_s_per_rad);
+  draw.multiply_constant(on, "rotor_coulomb_Nm", m.rotor_coulomb_Nm);
+  draw.multiply_constant(on, "gear_coulomb_Nm", m.gear_coulomb_Nm);
 }
 
 void multiply(erp::Body& body, Draw& draw) {
-  const erp::Mass was = erp::mass_of(body);
-  if (!(was.mass_kg > 0)) return;
+  const erp::Mass nominal = erp::mass_of(body);
+  if (!(nominal.mass_kg > 0)) return;
   const double mass = draw.factor(), com = draw.factor(), inertia = draw.factor();
-  const auto& i = was.inertia_kg_m2;
-  body.mass_kg = mass * was.mass_kg;
-  body.com_m = {com * was.com_m[0], com * was.com_m[1], com * was.com_m[2]};
+  const auto& i = nominal.inertia_kg_m2;
+  body.mass_kg = mass * nominal.mass_kg;
+  body.com_m = {com * nominal.com_m[0], com * nominal.com_m[1], com * nominal.com_m[2]};
   const double moments = mass * inertia;
   body.inertia_kg_m2 = {moments * i[0], moments * i[1], moments * i[2]};
   body.products_kg_m2 = {moments * i[3], moments * i[4], moments * i[5]};
@@ -77,17 +77,17 @@ AsBuilt multiplied(const erp::Robot& nominal, Factor factor, HiddenEffects& hidd
     multiply(motor, actuator.name, draw);
     built.robot.motor_types.push_back(motor);
     actuator.motor = motor.name;
-    draw.number(actuator.name, "radius_m", actuator.spindle.radius_m);
-    draw.number(actuator.name, "stiffness_N_per_m", actuator.tendon.stiffness_N_per_m);
-    draw.number(actuator.name, "damping_N_s_per_m", actuator.tendon.damping_N_s_per_m);
+    draw.multiply_constant(actuator.name, "radius_m", actuator.spindle.radius_m);
+    draw.multiply_constant(actuator.name, "stiffness_N_per_m", actuator.tendon.stiffness_N_per_m);
+    draw.multiply_constant(actuator.name, "damping_N_s_per_m", actuator.tendon.damping_N_s_per_m);
     const double arm = draw.factor();
-    hidden_effects.chains[a].moment_arm += arm - 1;
+    hidden_effects.channels[a].moment_arm += arm - 1;
     draw.add(actuator.name, "moment_arm", arm);
   }
   for (erp::Skeleton& part : built.robot.skeletons) {
     for (erp::Joint& joint : part.joints) {
-      draw.number(joint.name, "viscous_Nm_s_per_rad", joint.viscous_Nm_s_per_rad);
-      draw.number(joint.name, "coulomb_Nm", joint.coulomb_Nm);
+      draw.multiply_constant(joint.name, "viscous_Nm_s_per_rad", joint.viscous_Nm_s_per_rad);
+      draw.multiply_constant(joint.name, "coulomb_Nm", joint.coulomb_Nm);
     }
     for (erp::Body& body : part.bodies) multiply(body, draw);
   }
@@ -99,9 +99,9 @@ AsBuilt multiplied(const erp::Robot& nominal, Factor factor, HiddenEffects& hidd
 AsBuilt as_built(const erp::Robot& nominal, double relative, std::uint64_t seed,
                  HiddenEffects& hidden_effects) {
   std::mt19937_64 random(seed);
-  std::normal_distribution<double> by(0, relative);
+  std::normal_distribution<double> deviation(0, relative);
   return multiplied(
-      nominal, [&] { return 1 + by(random); }, hidden_effects);
+      nominal, [&] { return 1 + deviation(random); }, hidden_effects);
 }
 
 AsBuilt many_off(const erp::Robot& nominal, std::uint64_t seed, HiddenEffects& hidden_effects) {
@@ -111,13 +111,13 @@ AsBuilt many_off(const erp::Robot& nominal, std::uint64_t seed, HiddenEffects& h
       nominal, [&] { return factors.emplace_back(1); }, unused);
   std::mt19937_64 random(seed);
   std::uniform_int_distribution<std::size_t> count(8, 12);
-  std::uniform_real_distribution<double> size(0.02, 0.10);
-  std::bernoulli_distribution less;
-  std::vector<std::size_t> chosen(factors.size());
-  std::iota(chosen.begin(), chosen.end(), std::size_t{0});
-  std::ranges::shuffle(chosen, random);
-  for (const std::size_t k : chosen | std::views::take(count(random)))
-    factors[k] += (less(random) ? -1 : 1) * size(random);
+  std::uniform_real_distribution<double> relative_error(0.02, 0.10);
+  std::bernoulli_distribution is_negative;
+  std::vector<std::size_t> order(factors.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::shuffle(order, random);
+  for (const std::size_t k : order | std::views::take(count(random)))
+    factors[k] += (is_negative(random) ? -1 : 1) * relative_error(random);
   return multiplied(
       nominal, [next = factors.begin()]() mutable { return *next++; }, hidden_effects);
 }

@@ -7,7 +7,7 @@
 namespace sim::blind {
 namespace {
 
-constexpr double seconds = 20;
+constexpr double duration_s = 20;  // chosen
 
 double rms(const std::vector<double>& a, const std::vector<double>& b) {
   const std::size_t rows = std::min(a.size(), b.size());
@@ -16,12 +16,12 @@ double rms(const std::vector<double>& a, const std::vector<double>& b) {
   return rows > 0 ? std::sqrt(square / double(rows)) : 0;
 }
 
-bool is_read(const std::string& column) {
+bool is_reading(const std::string& column) {
   return column != "time_s" && !column.ends_with(".mode") && !column.ends_with(".reference");
 }
 
-recording::Table read(const erp::Robot& robot, const HiddenEffects& hidden_effects,
-                      const Excitation& excitation, std::uint64_t seed) {
+recording::Table simulate(const erp::Robot& robot, const HiddenEffects& hidden_effects,
+                          const Excitation& excitation, std::uint64_t seed) {
   Case blind;
   blind.hidden_effects = hidden_effects;
   return record(robot, blind, excitation, seed);
@@ -30,16 +30,18 @@ recording::Table read(const erp::Robot& robot, const HiddenEffects& hidden_effec
 }  // namespace
 
 Visibility::Visibility(const erp::Robot& robot) : robot_(robot) {
-  HiddenEffects none;
-  none.chains.resize(robot.actuators.size()), none.joints.resize(robot.joints().size());
+  HiddenEffects no_effects;
+  no_effects.channels.resize(robot.actuators.size());
+  no_effects.joints.resize(robot.joints().size());
   for (const int kind : {0, 1}) {
-    Run run{excitation(robot, kind, seconds, 1), {}, {}};
-    run.plain = read(robot, none, run.excitation, 1);
-    const auto again = read(robot, none, run.excitation, 2);
-    for (std::size_t c = 0; c < run.plain.columns.size(); ++c) {
-      const auto& [name, values] = run.plain.columns[c];
-      run.noise.push_back(is_read(name) ? rms(values, again.columns[c].values) / std::sqrt(2.0)
-                                        : 0);
+    Run run{excitation(robot, kind, duration_s, 1), {}, {}};
+    run.without_effects = simulate(robot, no_effects, run.excitation, 1);
+    // The difference of two runs with independent noise has twice the variance of the noise.
+    const auto second = simulate(robot, no_effects, run.excitation, 2);
+    for (std::size_t c = 0; c < run.without_effects.columns.size(); ++c) {
+      const auto& [name, values] = run.without_effects.columns[c];
+      run.noise.push_back(is_reading(name) ? rms(values, second.columns[c].values) / std::sqrt(2.0)
+                                           : 0);
     }
     runs_.push_back(std::move(run));
   }
@@ -48,10 +50,10 @@ Visibility::Visibility(const erp::Robot& robot) : robot_(robot) {
 bool Visibility::operator()(const HiddenEffects& hidden_effects) const {
   return std::ranges::any_of(runs_, [&](const Run& run) {
     try {
-      const auto now = read(robot_, hidden_effects, run.excitation, 1);
-      for (std::size_t c = 0; c < now.columns.size(); ++c)
-        if (run.noise[c] > 0 &&
-            rms(now.columns[c].values, run.plain.columns[c].values) > run.noise[c])
+      const auto with_effects = simulate(robot_, hidden_effects, run.excitation, 1);
+      for (std::size_t c = 0; c < with_effects.columns.size(); ++c)
+        if (run.noise[c] > 0 && rms(with_effects.columns[c].values,
+                                    run.without_effects.columns[c].values) > run.noise[c])
           return true;
       return false;
     } catch (const NotFinite&) {

@@ -5,19 +5,19 @@
 
 namespace sim::blind {
 
-/// Whether a hidden effect is visible in any reading. Capstan friction on a straight line, or a worn gear of a
-/// muscle with small forces, is not.
+/// Whether a hidden effect is visible in any reading. Capstan friction on a straight line is
+/// invisible, for example, and a worn gear of a muscle with small forces.
 class Visibility {
  public:
   explicit Visibility(const erp::Robot& robot);
-  /// Whether it changes at least one signal by more than its noise (rms) in one of two excitations. Also true
-  /// if the motion diverges.
+  /// Returns whether the effects change at least one signal by more than its noise (rms) in one of
+  /// two excitations. Returns true if the motion diverges.
   bool operator()(const HiddenEffects& hidden_effects) const;
 
  private:
   struct Run {
     Excitation excitation;
-    recording::Table plain;
+    recording::Table without_effects;
     std::vector<double> noise;  ///< rms, by column; 0: not evaluated
   };
   const erp::Robot& robot_;

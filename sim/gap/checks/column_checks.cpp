@@ -15,32 +15,33 @@
 namespace sim::checks {
 namespace {
 
-constexpr double beyond_stops = 3;       // times the largest angle of the stops; chosen
-constexpr double smallest_share = 0.02;  // of the rows at the end of a range; chosen
+constexpr double beyond_stops = 3;          // times the largest angle of the stops; chosen
+constexpr double smallest_stop_rad = 0.3;   // for joints with stops near 0; chosen
+constexpr double smallest_fraction = 0.02;  // of the rows at the end of a range; chosen
 
 /// A converter at the end of its range. Its readings are bounds, not values.
 struct AtLimit {
   Column column;
-  double limit = 0;  ///< in the column's unit
-  double share = 0;  ///< of the valid rows
+  double limit = 0;     ///< in the column's unit
+  double fraction = 0;  ///< of the valid rows
 };
 
-/// Share of the valid rows in which the magnitude is at least `limit`.
-double share_beyond(const Signal& signal, double limit) {
+/// Fraction of the valid rows in which the magnitude is at least `limit`.
+double fraction_beyond(const Signal& signal, double limit) {
   double beyond = 0, valid = 0;
   for (const double x : signal)
     if (std::isfinite(x)) beyond += std::abs(x) >= limit, ++valid;
   return valid > 0 ? beyond / valid : 0;
 }
 
-/// Currents and tensions that are at the end of their range in more than 2 % of the rows. The zero tension of a
-/// slack tendon is not an end of the range.
+/// Currents and tensions that are at the end of their range in more than 2 % of the rows. The zero
+/// tension of a slack tendon is not an end of the range.
 std::vector<AtLimit> at_limit(const Episode& episode, const erp::Robot& robot) {
-  std::vector<AtLimit> all;
+  std::vector<AtLimit> columns;
   const auto add_if_at_limit = [&](const Column& column, const Signal& signal, int counts,
                                    double per_count) {
-    const double share = share_beyond(signal, (counts - 0.5) * per_count);
-    if (share > smallest_share) all.push_back({column, counts * per_count, share});
+    const double fraction = fraction_beyond(signal, (counts - 0.5) * per_count);
+    if (fraction > smallest_fraction) columns.push_back({column, counts * per_count, fraction});
   };
   for (std::size_t a = 0; a < robot.actuators.size(); ++a) {
     const erp::Actuator& actuator = robot.actuators[a];
@@ -53,7 +54,7 @@ std::vector<AtLimit> at_limit(const Episode& episode, const erp::Robot& robot) {
                     scale.tension_counts_max - scale.tension_zero_counts,
                     scale.tension_N_per_count);
   }
-  return all;
+  return columns;
 }
 
 class Messages {
@@ -61,18 +62,19 @@ class Messages {
   Messages(const Episode& episode, const erp::Robot& robot) : e_(episode), robot_(robot) {}
 
   std::string names(const std::vector<Column>& columns) const {
-    constexpr std::size_t most = 4;
-    std::vector<std::string> all;
-    for (std::size_t k = 0; k < std::min(most, columns.size()); ++k)
-      all.push_back(name_of(columns[k], e_, robot_));
-    if (columns.size() > most) all.push_back(fmt::format("{} more", columns.size() - most));
-    return fmt::format("{}", fmt::join(all, " and "));
+    constexpr std::size_t max_names = 4;
+    std::vector<std::string> listed;
+    for (std::size_t k = 0; k < std::min(max_names, columns.size()); ++k)
+      listed.push_back(name_of(columns[k], e_, robot_));
+    if (columns.size() > max_names)
+      listed.push_back(fmt::format("{} more", columns.size() - max_names));
+    return fmt::format("{}", fmt::join(listed, " and "));
   }
   std::string of(const DeadColumn& dead) const {
     const std::string when = dead.whole_recording ? "in the whole recording"
                                                   : fmt::format("from {:.3g} s to {:.3g} s",
-                                                                double(dead.from) * e_.period_s,
-                                                                double(dead.until) * e_.period_s);
+                                                                double(dead.first) * e_.period_s,
+                                                                double(dead.end) * e_.period_s);
     return fmt::format(
         "{} is constant at {:.4g} {} while {} change{}: the signal is dead; repair the sensor, or "
         "remove {}",
@@ -83,7 +85,7 @@ class Messages {
     return fmt::format(
         "{} is at the end of its range, {:.4g}, in {:.2g} % of the rows: larger values are not "
         "recorded; empty these cells, or record motions that need less",
-        names({at.column}), at.limit, 100 * at.share);
+        names({at.column}), at.limit, 100 * at.fraction);
   }
   std::string of(const Correction& m) const {
     switch (m.kind) {
@@ -106,20 +108,21 @@ class Messages {
     return text + fmt::format(" is {:.4g} times {}; {}", m.factor, expected, remedy);
   }
   std::string of(const Alternatives& alternatives) const {
-    std::vector<std::string> all;
-    for (const Correction& correction : alternatives) all.push_back(of(correction));
-    return fmt::format("{}", fmt::join(all, "; or "));
+    std::vector<std::string> texts;
+    for (const Correction& correction : alternatives) texts.push_back(of(correction));
+    return fmt::format("{}", fmt::join(texts, "; or "));
   }
 
  private:
   std::string exchanged(const Correction& m) const {
     const auto half = m.columns.begin() + std::ptrdiff_t(m.columns.size() / 2);
-    const bool whole = m.columns.size() > 2;
+    const bool all_columns = m.columns.size() > 2;
     const auto name = [&](const Column& c) {
-      return whole ? robot_.actuators[c.of].name : name_of(c, e_, robot_);
+      return all_columns ? robot_.actuators[c.of].name : name_of(c, e_, robot_);
     };
     return fmt::format("{} and {} seem exchanged{}; exchange {}", name(m.columns[0]), name(*half),
-                       whole ? " in all their columns" : "", whole ? "their names" : "the columns");
+                       all_columns ? " in all their columns" : "",
+                       all_columns ? "their names" : "the columns");
   }
 
   const Episode& e_;
@@ -133,7 +136,7 @@ std::vector<std::size_t> beyond_their_stops(const Episode& episode,
   for (std::size_t j = 0; j < joints.size(); ++j) {
     if (joints[j].type != erp::JointType::revolute) continue;
     const double largest =
-        std::max({std::abs(joints[j].min_rad), std::abs(joints[j].max_rad), 0.3});
+        std::max({std::abs(joints[j].min_rad), std::abs(joints[j].max_rad), smallest_stop_rad});
     if (std::ranges::any_of(episode.joints[j].angle_rad,
                             [&](double x) { return std::abs(x) > beyond_stops * largest; }))
       beyond.push_back(j);
@@ -141,7 +144,7 @@ std::vector<std::size_t> beyond_their_stops(const Episode& episode,
   return beyond;
 }
 
-std::string far_beyond(const erp::Joint& joint, const Signal& angle) {
+std::string beyond_stops_message(const erp::Joint& joint, const Signal& angle) {
   double largest = 0;
   for (const double x : angle) largest = std::fmax(largest, std::abs(x));
   return fmt::format(
@@ -150,8 +153,9 @@ std::string far_beyond(const erp::Joint& joint, const Signal& angle) {
       joint.name, largest, joint.min_rad, joint.max_rad);
 }
 
-/// Whether a correction contains the column. A column in another unit also exceeds its range.
-bool corrects(const std::vector<Alternatives>& all, const Column& column) {
+/// Whether a correction changes the column. A column in another unit is already reported when it
+/// exceeds its range.
+bool is_corrected(const std::vector<Alternatives>& all, const Column& column) {
   return std::ranges::any_of(all, [&](const Alternatives& alternatives) {
     return std::ranges::any_of(alternatives, [&](const Correction& m) {
       return std::ranges::count(m.columns, column) > 0;
@@ -173,14 +177,14 @@ std::vector<std::string> column_checks(const Episode& episode, const erp::Robot&
   for (const DeadColumn& dead : dead_columns(episode, robot, laws))
     report(messages.of(dead)), means.remove(dead.column);
   for (const std::size_t j : beyond_their_stops(episode, joints)) {
-    report(far_beyond(joints[j], episode.joints[j].angle_rad));
+    report(beyond_stops_message(joints[j], episode.joints[j].angle_rad));
     means.scale({Quantity::angle, j}, std::numbers::pi / 180);
   }
   laws.compute_paths(means);
-  const auto found = corrections(robot, laws, std::move(means));
-  for (const Alternatives& alternatives : found) report(messages.of(alternatives));
+  const auto proposed = corrections(robot, laws, std::move(means));
+  for (const Alternatives& alternatives : proposed) report(messages.of(alternatives));
   for (const AtLimit& at : at_limit(episode, robot))
-    if (!corrects(found, at.column)) report(messages.of(at));
+    if (!is_corrected(proposed, at.column)) report(messages.of(at));
   return reports;
 }
 

@@ -9,9 +9,9 @@
 namespace sim::checks {
 namespace {
 
-constexpr double unit_tolerance = 0.25;  // of the logarithm of a factor; chosen
-constexpr double largest_effect = 30;    // no effect of a robot changes a slope by more; chosen
-constexpr std::size_t most = 8;          // corrections of one recording
+constexpr double unit_tolerance = 0.25;     // of the logarithm of a factor; chosen
+constexpr double largest_effect = 30;       // no effect of a robot changes a slope by more; chosen
+constexpr std::size_t max_corrections = 8;  // of one recording; chosen
 
 struct Unit {
   double factor;
@@ -43,7 +43,7 @@ std::vector<Unit> units_of(const Column& column, const erp::Robot& robot) {
   return units;
 }
 
-/// Whether the mean tension is positive; a tendon cannot push.
+/// Whether the mean tension is positive. Tensions are positive because a tendon cannot push.
 bool is_tension_positive(const Signal& tension) {
   double sum = 0;
   for (const double x : tension)
@@ -51,9 +51,9 @@ bool is_tension_positive(const Signal& tension) {
   return sum > 0;
 }
 
-/// Whether the slope is so wrong that no effect of a robot could cause it.
+/// Whether no effect of a robot could cause the slope.
 bool is_impossible(const Law& law) {
-  return law.suspicious() &&
+  return law.is_suspicious() &&
          !(law.line.slope < largest_effect && law.line.slope > 1 / largest_effect);
 }
 
@@ -70,6 +70,7 @@ bool moves_bones(const Correction& correction) {
   return correction.columns[0].quantity == Quantity::angle;
 }
 
+/// Scores all corrections of the columns that take part in suspicious laws.
 class Vote {
  public:
   Vote(const erp::Robot& robot, Laws& laws, Means& means)
@@ -77,31 +78,31 @@ class Vote {
     for (std::size_t a = 0; a < means.actuators.size(); ++a) {
       before_.push_back(laws.evaluate(means, a));
       for (const Law& law : before_.back())
-        if (law.suspicious())
+        if (law.is_suspicious())
           suspects_.insert(suspects_.end(), law.columns.begin(), law.columns.end());
         else if (law.is_inconclusive()) suspects_.push_back(law.columns.back());
     }
   }
 
-  /// Empty: no law is violated, or no correction helps.
+  /// The corrections with the highest score; empty: no law is violated, or no correction helps.
   Alternatives best() {
     const auto all = residuals::all_columns(means_.actuators.size(), means_.joints.size());
     for (const Column& column : all) {
       for (const Unit& unit : units_of(column, robot_))
-        for (const double sign : {1.0, -1.0}) scaled(column, sign * unit.factor, unit.remedy);
-      scaled(column, -1, "");
+        for (const double sign : {1.0, -1.0}) try_scaled(column, sign * unit.factor, unit.remedy);
+      try_scaled(column, -1, "");
     }
-    exchanged();
+    try_exchanges();
     if (best_.empty()) try_any_factor();
     return best_;
   }
 
  private:
-  void scaled(const Column& column, double factor, const char* remedy) {
+  void try_scaled(const Column& column, double factor, const char* remedy) {
     consider({Correction::Kind::scaled, {column}, factor, remedy, {}});
   }
 
-  void exchanged() {
+  void try_exchanges() {
     const auto pair = [&](Quantity quantity, std::size_t a, std::size_t b) {
       consider({Correction::Kind::exchanged, {{quantity, a}, {quantity, b}}, 1, "", {}});
     };
@@ -115,41 +116,43 @@ class Vote {
                   {}});
     for (std::size_t a = 0; a < means_.actuators.size(); ++a)
       for (std::size_t b = a + 1; b < means_.actuators.size(); ++b) {
-        std::vector<Column> whole;
+        std::vector<Column> all_columns;
         for (const std::size_t of : {a, b})
-          for (const Quantity q : residuals::actuator_quantities) whole.push_back({q, of});
-        consider({Correction::Kind::exchanged, whole, 1, "", {}});
+          for (const Quantity q : residuals::actuator_quantities) all_columns.push_back({q, of});
+        consider({Correction::Kind::exchanged, all_columns, 1, "", {}});
         for (const Quantity q : residuals::actuator_quantities) pair(q, a, b);
       }
     for (std::size_t i = 0; i < means_.joints.size(); ++i)
       for (std::size_t j = i + 1; j < means_.joints.size(); ++j) pair(Quantity::angle, i, j);
   }
 
-  /// Applies the factor that would satisfy each impossible law. If no factor helps, reports the columns of the
-  /// first one as contradicting.
+  /// Tries the factors that would satisfy an impossible law. If no factor helps, reports the
+  /// columns of the first impossible law as contradicting.
   void try_any_factor() {
     std::vector<Law> impossible;
     for (const auto& laws : before_)
       std::ranges::copy_if(laws, std::back_inserter(impossible), is_impossible);
     for (const Law& law : impossible)
       for (const Column& column : law.columns)
-        for (const double factor : {law.line.slope, 1 / law.line.slope}) scaled(column, factor, "");
+        for (const double factor : {law.line.slope, 1 / law.line.slope})
+          try_scaled(column, factor, "");
     if (best_.empty() && !impossible.empty())
       best_.push_back({Correction::Kind::contradicting, impossible[0].columns, 1, "", {}});
   }
 
-  /// A cheap test before the evaluation: the wrong column takes part in a suspicious or inconclusive law; of an
-  /// exchange, one column of each side does.
+  /// A fast test before the evaluation: a wrong column takes part in a suspicious or inconclusive
+  /// law. In an exchange, a column of each side does.
   bool is_possible(const Correction& correction) const {
     const auto suspect = [&](const Column& c) {
       return !means_[c].empty() && std::ranges::count(suspects_, c) > 0;
     };
-    const std::span<const Column> all = correction.columns, half = all.first(all.size() / 2);
+    const std::span<const Column> columns = correction.columns;
+    const auto first_half = columns.first(columns.size() / 2);
     if (correction.kind == Correction::Kind::exchanged)
-      return std::ranges::any_of(half, suspect) &&
-             std::ranges::any_of(all.last(half.size()), suspect);
-    const bool pushes = all[0].quantity == Quantity::tension && correction.factor < 0;
-    return suspect(all[0]) && !(pushes && is_tension_positive(means_[all[0]]));
+      return std::ranges::any_of(first_half, suspect) &&
+             std::ranges::any_of(columns.last(first_half.size()), suspect);
+    const bool negates_tension = columns[0].quantity == Quantity::tension && correction.factor < 0;
+    return suspect(columns[0]) && !(negates_tension && is_tension_positive(means_[columns[0]]));
   }
 
   /// Actuators whose laws the correction may change.
@@ -165,8 +168,8 @@ class Vote {
     return all;
   }
 
-  /// Scores a correction: laws repaired less laws broken. An exchange changes more columns, so it must score at least
-  /// 2; any other correction must repair at least one law that was suspicious, not only inconclusive.
+  /// Scores a correction. An exchange changes more columns and must therefore score at least 2. Any
+  /// other correction must repair at least one suspicious law; an inconclusive one is not enough.
   void consider(Correction correction) {
     if (!is_possible(correction)) return;
     const auto paths = moves_bones(correction) ? means_.paths : std::vector<residuals::PathTrace>{};
@@ -180,31 +183,32 @@ class Vote {
     }
     apply(correction, 1 / correction.factor, means_);
     if (moves_bones(correction)) means_.paths = paths;
-    const bool enough =
+    const bool is_sufficient =
         correction.kind == Correction::Kind::exchanged ? tally.gain > 1 : tally.suspicious > 0;
-    if (enough && tally.gain > 0 && tally.gain >= gain_) keep(std::move(correction), tally);
+    if (is_sufficient && tally.gain > 0 && tally.gain >= gain_) store(std::move(correction), tally);
   }
 
   struct Tally {
-    int gain = 0;          ///< laws repaired less laws broken
+    int gain = 0;          ///< score: repaired laws minus laws that become violated
     int suspicious = 0;    ///< repaired laws that were suspicious
     double deviation = 0;  ///< Σ |log slope| of the repaired laws
   };
   static void count(const Law& before, const Law& after, Correction& correction, Tally& tally) {
     const double deviation = std::abs(std::log(std::abs(after.line.slope)));
-    const bool of_unit = std::abs(correction.factor) != 1;
+    const bool changes_unit = std::abs(correction.factor) != 1;
     tally.gain -= before.is_satisfied() && !after.is_satisfied();
-    if (!(before.suspicious() || before.is_inconclusive()) || !after.is_satisfied() ||
-        (of_unit && deviation > unit_tolerance))
+    if (!(before.is_suspicious() || before.is_inconclusive()) || !after.is_satisfied() ||
+        (changes_unit && deviation > unit_tolerance))
       return;
-    ++tally.gain, tally.deviation += deviation, tally.suspicious += before.suspicious();
+    ++tally.gain, tally.deviation += deviation, tally.suspicious += before.is_suspicious();
     for (const Column& c : after.columns)
       if (!std::ranges::count(correction.columns, c) && !std::ranges::count(correction.evidence, c))
         correction.evidence.push_back(c);
   }
 
-  /// Of two factors of one column, keeps the one that fits better.
-  void keep(Correction correction, const Tally& tally) {
+  /// Keeps the corrections with the highest score; of two factors of one column, the one with the
+  /// smaller deviation.
+  void store(Correction correction, const Tally& tally) {
     if (tally.gain > gain_) best_.clear(), deviations_.clear();
     gain_ = tally.gain;
     for (std::size_t k = 0; k < best_.size(); ++k)
@@ -240,13 +244,13 @@ void drop_alternatives_corrected_later(std::vector<Alternatives>& all) {
 
 std::vector<Alternatives> corrections(const erp::Robot& robot, Laws& laws, Means means) {
   std::vector<Alternatives> all;
-  while (all.size() < most) {
+  while (all.size() < max_corrections) {
     Alternatives best = Vote(robot, laws, means).best();
     if (best.empty()) break;
-    const bool done = best[0].kind == Correction::Kind::contradicting;
-    if (!done) apply(best[0], best[0].factor, means), laws.compute_paths(means);
+    const bool is_last = best[0].kind == Correction::Kind::contradicting;
+    if (!is_last) apply(best[0], best[0].factor, means), laws.compute_paths(means);
     all.push_back(std::move(best));
-    if (done) break;
+    if (is_last) break;
   }
   drop_alternatives_corrected_later(all);
   return all;

@@ -9,29 +9,34 @@
 namespace sim::checks {
 namespace {
 
-constexpr double shortest_s = 2;  // of a dead stretch; chosen, as are the thresholds below
-constexpr double of_supply = 0.1, of_range = 0.1, of_noise = 20;
-constexpr double of_noise_whole = 5;  // for a column that is constant in the whole recording
-constexpr double travel_m = 0.005, travel_without_tension_m = 0.015;
+// Thresholds; chosen.
+constexpr double shortest_s = 2;         // of a dead period
+constexpr double supply_fraction = 0.1;  // of the supply voltage
+constexpr double range_fraction = 0.1;   // of the tension sensor
+constexpr double noise_factor = 20;      // times step and noise of the sensor
+// The same for a column that is constant in the whole recording.
+constexpr double noise_factor_whole = 5;
+constexpr double travel_m = 0.005, travel_without_tension_m = 0.015;  // of a tendon
 
 struct Run {
-  std::size_t from = 0, until = 0;
-  std::size_t rows() const { return until - from; }
+  std::size_t first = 0, end = 0;
+  std::size_t rows() const { return end - first; }
 };
 
-/// The longest stretch of one constant value; missing samples (NaN) do not interrupt it.
+/// The longest run of one constant value. Missing samples (NaN) do not interrupt it.
 Run longest_run(const Signal& signal) {
   Run longest, run;
   double value = recording::not_taken;
   for (std::size_t k = 0; k < signal.size(); ++k) {
     if (std::isnan(signal[k])) continue;
-    if (signal[k] != value) value = signal[k], run.from = k;
-    run.until = k + 1;
+    if (signal[k] != value) value = signal[k], run.first = k;
+    run.end = k + 1;
     if (run.rows() > longest.rows()) longest = run;
   }
   return longest;
 }
 
+/// Difference of the 95 % and 5 % quantiles; 0 for fewer than 20 samples.
 double spread_of(Signal signal) {
   std::erase_if(signal, [](double x) { return !std::isfinite(x); });
   if (signal.size() < 20) return 0;
@@ -46,7 +51,8 @@ const Signal& signal_of(const Episode& e, const Column& c) {
   return *all[static_cast<std::size_t>(c.quantity)];
 }
 
-/// The columns that imply, by the laws of these rows, that a constant column should change; empty: it may be constant.
+/// Finds the columns that imply, by the laws of these rows, that a constant column should change.
+/// No such column: it may be constant.
 class ExpectedChange {
  public:
   ExpectedChange(const erp::Robot& robot, const Laws& laws, const Means& means,
@@ -76,32 +82,33 @@ class ExpectedChange {
   const erp::Actuator& actuator(std::size_t a) const { return robot_.actuators[a]; }
   const erp::MotorType& motor(std::size_t a) const { return robot_.motor_of(actuator(a)); }
 
-  /// factor · part + speed_factor · K_E N ω, in V; for a comparison of R i with V − K_E N ω.
-  Signal volts(std::size_t a, const Signal& part, double factor, double speed_factor) const {
-    Signal sum = part;
+  /// factor · signal + speed_factor · K_E N ω, in V: R i + K_E N ω or V − K_E N ω.
+  Signal volts(std::size_t a, const Signal& signal, double factor, double speed_factor) const {
+    Signal sum = signal;
     const Signal& speed = means_.actuators[a].speed_rad_per_s;
     const double back_emf = motor(a).back_emf_V_s_per_rad * motor(a).gear_ratio;
     for (std::size_t k = 0; k < sum.size(); ++k)
       sum[k] = factor * sum[k] + speed_factor * back_emf * (speed.empty() ? 0 : speed[k]);
     return sum;
   }
-  /// The model of a drive has neither spring nor weight: only its control reverses its motion.
+  /// The model of a drive has neither spring nor weight. Only the voltage or current can reverse
+  /// its motion.
   std::vector<Column> of_control(std::size_t a) const {
-    constexpr double fast = 0.2;  // of the fastest; chosen
+    constexpr double fast_fraction = 0.2;  // of the largest speed; chosen
     const Signal& speed = means_.actuators[a].speed_rad_per_s;
-    double top = 0, last = 0;
+    double max_speed = 0, previous = 0;
     for (const double w : speed)
-      if (std::isfinite(w)) top = std::fmax(top, std::abs(w));
+      if (std::isfinite(w)) max_speed = std::fmax(max_speed, std::abs(w));
     int reversals = 0;
     for (const double w : speed)
-      if (std::abs(w) > fast * top) reversals += last * w < 0, last = w;
+      if (std::abs(w) > fast_fraction * max_speed) reversals += previous * w < 0, previous = w;
     if (!whole_recording_ || reversals < 2) return {};
     return {{Quantity::shaft, a}};
   }
   std::vector<Column> of_voltage(std::size_t a) const {
     const Signal& current = measured(Quantity::current, a);
-    const double needed = spread_of(volts(a, current, motor(a).resistance_ohm, 1));
-    if (spread_of(current) == 0 || !(needed > of_supply * motor(a).supply_V)) return {};
+    const double implied_V = spread_of(volts(a, current, motor(a).resistance_ohm, 1));
+    if (spread_of(current) == 0 || !(implied_V > supply_fraction * motor(a).supply_V)) return {};
     return {{Quantity::current, a}, {Quantity::shaft, a}};
   }
   std::vector<Column> of_current(std::size_t a) const {
@@ -109,36 +116,40 @@ class ExpectedChange {
     const erp::SensorType& sensors = robot_.sensors_of(actuator(a));
     const double step_A = 2 * sensors.current_range_A / std::exp2(sensors.current_bits);
     const double drop_A = spread_of(volts(a, voltage, 1, -1)) / motor(a).resistance_ohm;
-    const double threshold = whole_recording_ ? of_noise_whole : of_noise;
+    const double threshold = whole_recording_ ? noise_factor_whole : noise_factor;
     if (spread_of(voltage) == 0 || !(drop_A > threshold * (step_A + sensors.current_noise_A)))
       return {};
     return {{Quantity::voltage, a}, {Quantity::shaft, a}};
   }
-  /// If a shaft really stands still, its tendon acts as a spring, and the spring law holds.
+  /// If the shaft is at rest, the tendon is a spring between two measured ends, and the spring law
+  /// holds.
   std::vector<Column> of_shaft(std::size_t a) const {
     if (!spring_holds(a) && spread_of(means_.paths[a].length_m) > travel_m)
       return laws_.crossed_by(a);
-    const bool drive = actuator(a).tendon.path.empty();  // only a dead encoder is constant so long
+    // The encoder of a drive that is not dead is never constant for so long.
+    const bool is_drive = actuator(a).tendon.path.empty();
     for (const Quantity control : {Quantity::voltage, Quantity::current})
-      if (drive && spread_of(measured(control, a)) > 0) return {{control, a}};
+      if (is_drive && spread_of(measured(control, a)) > 0) return {{control, a}};
     return {};
   }
-  /// For a slack tendon neither the spring law nor the motor current implies a tension.
+  /// The tension of a slack tendon may be constant: then neither the spring law nor the motor
+  /// current implies a change.
   std::vector<Column> of_tension(std::size_t a) const {
     const erp::SensorType& sensors = robot_.sensors_of(actuator(a));
-    const double slack_N = of_range * sensors.tension_range_N,
+    const double slack_N = range_fraction * sensors.tension_range_N,
                  step_N = sensors.tension_range_N / std::exp2(sensors.tension_bits);
     const Signal& tension = measured(Quantity::tension, a);
     const bool may_be_slack = tension.empty() || !(tension[0] > slack_N);
-    const double least = may_be_slack ? slack_N : of_noise * (step_N + sensors.tension_noise_N);
+    const double threshold_N =
+        may_be_slack ? slack_N : noise_factor * (step_N + sensors.tension_noise_N);
     std::vector<Column> evidence;
     for (const Law& law : laws_.evaluate(means_, a))
-      if (law.kind == Law::Kind::spring && spread_of(law.predicted) > least)
+      if (law.kind == Law::Kind::spring && spread_of(law.predicted) > threshold_N)
         evidence.assign(law.columns.begin(), law.columns.end() - 1);
     const Signal& current = measured(Quantity::current, a);
     const double pull_N_per_A =
         motor(a).gear_ratio * motor(a).torque_Nm_per_A / actuator(a).spindle.radius_m;
-    if (!current.empty() && !(pull_N_per_A * spread_of(current) > least)) return {};
+    if (!current.empty() && !(pull_N_per_A * spread_of(current) > threshold_N)) return {};
     return evidence;
   }
   /// If antagonistic tendons hold a joint still, their spring laws hold.
@@ -183,7 +194,7 @@ bool nothing_changes(const Episode& episode) {
 
 std::vector<DeadColumn> dead_columns(const Episode& episode, const erp::Robot& robot, Laws& laws) {
   std::vector<DeadColumn> dead;
-  std::optional<Means> whole;
+  std::optional<Means> recording_means;
   for (const Column& column :
        residuals::all_columns(episode.actuators.size(), episode.joints.size())) {
     const Signal& signal = signal_of(episode, column);
@@ -191,15 +202,16 @@ std::vector<DeadColumn> dead_columns(const Episode& episode, const erp::Robot& r
     const auto valid = std::ranges::count_if(signal, [](double x) { return !std::isnan(x); });
     const bool whole_recording =
         run.rows() > 0 && valid > 0 && std::ranges::all_of(signal, [&](double x) {
-          return std::isnan(x) || x == signal[run.from];
+          return std::isnan(x) || x == signal[run.first];
         });
     if (!whole_recording && double(run.rows()) * episode.period_s < shortest_s) continue;
-    if (whole_recording && !whole) whole = laws.means(episode, 0, episode.rows);
-    const Means part = whole_recording ? Means{} : laws.means(episode, run.from, run.until);
+    if (whole_recording && !recording_means) recording_means = laws.means(episode, 0, episode.rows);
+    const Means run_means = whole_recording ? Means{} : laws.means(episode, run.first, run.end);
     const auto evidence =
-        ExpectedChange(robot, laws, whole_recording ? *whole : part, whole_recording).of(column);
+        ExpectedChange(robot, laws, whole_recording ? *recording_means : run_means, whole_recording)
+            .of(column);
     if (!evidence.empty())
-      dead.push_back({column, signal[run.from], run.from, run.until, whole_recording, evidence});
+      dead.push_back({column, signal[run.first], run.first, run.end, whole_recording, evidence});
   }
   return dead;
 }

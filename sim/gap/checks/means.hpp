@@ -5,8 +5,8 @@
 #include "sim/gap/residuals/column.hpp"
 #include "sim/gap/residuals/skeletal.hpp"
 
-/// A downsampled recording: means under a window (bump.hpp) at every eighth row. Its columns can be scaled, exchanged
-/// and removed to test corrections.
+/// A downsampled recording: means under a window (bump.hpp) at every eighth row. Corrections scale,
+/// exchange and remove its columns.
 namespace sim::checks {
 
 using residuals::Column, residuals::Episode, residuals::JointSignals, residuals::PathTrace,
@@ -21,17 +21,18 @@ struct Means {
   std::size_t rows = 0;
   std::vector<Actuator> actuators;
   std::vector<JointSignals> joints;
-  std::vector<PathTrace> paths;  ///< at these joint angles
+  std::vector<PathTrace> paths;  ///< of the tendons at these joint angles, by actuator
 
   Signal& operator[](const Column& column);
   const Signal& operator[](const Column& column) const;
-  /// Multiplies the column, and the derivatives of a shaft angle, by `factor`. Does not update the paths.
+  /// Multiplies a column by `factor`; for a shaft angle, its derivatives too. Does not update the
+  /// paths.
   void scale(const Column& column, double factor);
   void exchange(const Column& one, const Column& other);
   void remove(const Column& column);
 };
 
-/// Of the rows `from` … `until` − 1; without the paths.
-Means means_of(const Episode& episode, std::size_t from, std::size_t until);
+/// Means of the rows `first` … `end` − 1, without the paths.
+Means means_of(const Episode& episode, std::size_t first, std::size_t end);
 
 }  // namespace sim::checks

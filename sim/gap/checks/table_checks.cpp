@@ -25,7 +25,7 @@ std::vector<std::string> parts_of(const erp::Robot& robot) {
   return names;
 }
 
-/// Name of the part that a column belongs to; empty: none, as for the time.
+/// Name of the part that a column belongs to; empty for a column without a part, such as the time.
 std::string part_of(const std::string& column) {
   const auto dot = column.rfind('.');
   return dot == column.npos ? "" : column.substr(0, dot);
@@ -33,11 +33,11 @@ std::string part_of(const std::string& column) {
 
 std::vector<std::string> unknown_columns(const recording::Table& table, const erp::Robot& robot,
                                          const std::string& name) {
-  const auto known = parts_of(robot);
+  const auto known_parts = parts_of(robot);
   std::vector<std::string> parts, reports;
   for (const auto& column : table.columns) {
     const std::string part = part_of(column.name);
-    if (part.empty() || std::ranges::count(known, part) || std::ranges::count(parts, part))
+    if (part.empty() || std::ranges::count(known_parts, part) || std::ranges::count(parts, part))
       continue;
     parts.push_back(part);
     const auto columns = std::ranges::count_if(
@@ -45,16 +45,16 @@ std::vector<std::string> unknown_columns(const recording::Table& table, const er
     reports.push_back(fmt::format("{}: column {}{} is ignored: robot \"{}\" has no part \"{}\"; {}",
                                   name, column.name,
                                   columns > 1 ? fmt::format(" (and {} more)", columns - 1) : "",
-                                  robot.name, part, xml::did_you_mean(part, known)));
+                                  robot.name, part, xml::did_you_mean(part, known_parts)));
   }
   return reports;
 }
 
 /// Whether a period is near the ECUs' period but differs by more than the drift of a clock.
 bool is_another_clock(double period_s) {
-  constexpr double drift = 0.005, near = 0.2;  // of the period; chosen
+  constexpr double max_drift = 0.005, max_deviation = 0.2;  // of the period; chosen
   const double deviation = std::abs(period_s / residuals::tick_s - 1);
-  return deviation > drift && deviation < near;
+  return deviation > max_drift && deviation < max_deviation;
 }
 
 }  // namespace
@@ -64,9 +64,10 @@ std::vector<std::string> table_checks(const recording::Table& table, const erp::
   std::vector<std::string> reports = unknown_columns(table, robot, name);
   const bool has_ecus = std::ranges::any_of(
       robot.actuators, [&](const auto& a) { return !residuals::drive_of(robot, a.name); });
-  constexpr double largest_jitter = 0.03;  // of a period; chosen
+  constexpr double largest_jitter = 0.03;       // of a period; chosen
+  constexpr double largest_row_distance = 1.5;  // in periods of the ECUs; chosen
   const auto [period_s, jitter_s] = residuals::row_times(table);
-  if (has_ecus && period_s > 1.5 * residuals::tick_s)
+  if (has_ecus && period_s > largest_row_distance * residuals::tick_s)
     reports.push_back(fmt::format(
         "{}: time_s has one row per {:.3g} ms, but the ECUs' period is {:g} ms: a gap at a motor "
         "or gearbox may be caused by the missing rows; record one row per {:g} ms; if the rows "

@@ -23,72 +23,78 @@ erp::Robot with(const erp::Robot& robot, const Placed& placed) {
   return changed;
 }
 
-/// Share of the time in which a motor is at the supply voltage.
-double saturated(const recording::Table& table, const erp::Robot& robot,
-                 const erp::Actuator& actuator) {
+/// Fraction of the time in which a motor is at the supply voltage.
+double saturated_fraction(const recording::Table& table, const erp::Robot& robot,
+                          const erp::Actuator& actuator) {
   const auto& volts = table.find(actuator.name + ".voltage_V")->values;
-  const double most_V = 0.99 * robot.motor_of(actuator).supply_V;
-  const auto at_most =
-      std::ranges::count_if(volts, [&](double v) { return std::abs(v) >= most_V; });
-  return volts.empty() ? 0 : double(at_most) / double(volts.size());
+  constexpr double near_supply = 0.99;  // chosen
+  const double limit_V = near_supply * robot.motor_of(actuator).supply_V;
+  const auto saturated_rows =
+      std::ranges::count_if(volts, [&](double v) { return std::abs(v) >= limit_V; });
+  return volts.empty() ? 0 : double(saturated_rows) / double(volts.size());
 }
 
 Extremes extremes_of(const recording::Table& table, const erp::Robot& robot) {
   Extremes e;
-  e.to_stop_rad = std::numeric_limits<double>::infinity();
+  e.stop_distance_rad = std::numeric_limits<double>::infinity();
   for (const erp::Actuator& actuator : robot.actuators)
     for (const double tension : table.find(actuator.name + ".tension_N")->values)
-      if (const double share = tension / actuator.max_tension_N; share > e.of_max_tension)
-        e.of_max_tension = share, e.tightest = actuator.name;
+      if (const double fraction = tension / actuator.max_tension_N; fraction > e.tension_fraction)
+        e.tension_fraction = fraction, e.tension_actuator = actuator.name;
   for (const erp::Actuator& actuator : robot.actuators)
-    if (const double share = saturated(table, robot, actuator); share > e.saturated)
-      e.saturated = share, e.slowest = actuator.name;
+    if (const double fraction = saturated_fraction(table, robot, actuator);
+        fraction > e.saturated_fraction)
+      e.saturated_fraction = fraction, e.saturated_actuator = actuator.name;
   for (const erp::Joint& joint : robot.joints())
     if (const auto* angle = table.find(joint.name + ".angle_rad"))
       for (const double q : angle->values)
-        if (const double left = std::min(q - joint.min_rad, joint.max_rad - q);
-            left < e.to_stop_rad)
-          e.to_stop_rad = left, e.nearest = joint.name;
+        if (const double distance = std::min(q - joint.min_rad, joint.max_rad - q);
+            distance < e.stop_distance_rad)
+          e.stop_distance_rad = distance, e.stop_joint = joint.name;
   return e;
 }
 
-void worse_of(const Extremes& a, Extremes& into) {
-  if (a.of_max_tension > into.of_max_tension)
-    into.of_max_tension = a.of_max_tension, into.tightest = a.tightest;
-  if (a.saturated > into.saturated) into.saturated = a.saturated, into.slowest = a.slowest;
-  if (a.to_stop_rad < into.to_stop_rad) into.to_stop_rad = a.to_stop_rad, into.nearest = a.nearest;
+/// Extends the extremes by those of another run.
+void extend(const Extremes& a, Extremes& extremes) {
+  if (a.tension_fraction > extremes.tension_fraction)
+    extremes.tension_fraction = a.tension_fraction, extremes.tension_actuator = a.tension_actuator;
+  if (a.saturated_fraction > extremes.saturated_fraction)
+    extremes.saturated_fraction = a.saturated_fraction,
+    extremes.saturated_actuator = a.saturated_actuator;
+  if (a.stop_distance_rad < extremes.stop_distance_rad)
+    extremes.stop_distance_rad = a.stop_distance_rad, extremes.stop_joint = a.stop_joint;
 }
 
-/// Reason why a run is not safe; empty: it is safe.
+/// Reason why a run is not safe; empty: safe.
 std::string danger(const Extremes& e, const ExperimentOptions& options) {
-  if (e.of_max_tension > options.of_max_tension)
-    return fmt::format("tension of {} reaches {:.0f} % of its limit", e.tightest,
-                       100 * e.of_max_tension);
-  if (e.to_stop_rad <= 0) return e.nearest + " reaches its stop";
-  if (e.to_stop_rad <= options.to_stop_rad)
-    return fmt::format("{} comes within {:.3f} rad of its stop", e.nearest, e.to_stop_rad);
+  if (e.tension_fraction > options.tension_fraction)
+    return fmt::format("tension of {} reaches {:.0f} % of its limit", e.tension_actuator,
+                       100 * e.tension_fraction);
+  if (e.stop_distance_rad <= 0) return e.stop_joint + " reaches its stop";
+  if (e.stop_distance_rad <= options.stop_distance_rad)
+    return fmt::format("{} comes within {:.3f} rad of its stop", e.stop_joint, e.stop_distance_rad);
   return "";
 }
 
 /// Σ z² of a suspect, fitted to the predicted run.
 double square_of(const Evaluator& evaluator, const Placed& suspect) {
   const std::size_t only[] = {0};
-  return diagnosis::fit(evaluator, evaluator.bare(), suspect, only).square;
+  return diagnosis::fit(evaluator, evaluator.nominal_evaluation(), suspect, only).square;
 }
 
-/// An excitation that starts at rest: at pretension, with no line wound.
+/// An excitation that starts at rest: at pretension, with shafts at 0.
 Excitation from_rest(const erp::Robot& robot, int kind, double duration_s, std::uint64_t seed) {
-  constexpr double ramp_s = 1;
-  Excitation all = excitation(robot, kind, duration_s, seed);
-  const auto rows = std::min(all.reference.size(), std::size_t(ramp_s / all.period_s));
+  constexpr double ramp_s = 1;  // chosen
+  Excitation ramped = excitation(robot, kind, duration_s, seed);
+  const auto rows = std::min(ramped.reference.size(), std::size_t(ramp_s / ramped.period_s));
   for (std::size_t k = 0; k < rows; ++k)
-    for (std::size_t a = 0; a < all.reference[k].size(); ++a) {
+    for (std::size_t a = 0; a < ramped.reference[k].size(); ++a) {
       const double rest =
-          all.mode == erp::Mode::force ? robot.actuators[a].tendon.pretension_N : 0.0;
-      double& reference = all.reference[k][a];
+          ramped.mode == erp::Mode::force ? robot.actuators[a].tendon.pretension_N : 0.0;
+      double& reference = ramped.reference[k][a];
       reference = std::lerp(rest, reference, double(k) / double(rows));
     }
-  return all;
+  return ramped;
 }
 
 double split(double other, double first) { return std::sqrt(std::max(0.0, other - first)); }
@@ -101,7 +107,7 @@ Candidate evaluate(const erp::Robot& robot, const std::vector<Placed>& suspects,
   recording::Table truth;
   for (const Placed& suspect : suspects) {
     const auto table = predict_run(with(robot, suspect), set_points, seed);
-    worse_of(extremes_of(table, robot), candidate.extremes);
+    extend(extremes_of(table, robot), candidate.extremes);
     if (&suspect == &suspects.front()) truth = table;
   }
   candidate.unsafe = danger(candidate.extremes, options);
@@ -113,8 +119,9 @@ Candidate evaluate(const erp::Robot& robot, const std::vector<Placed>& suspects,
   for (std::size_t k = 1; k < suspects.size(); ++k)
     candidate.split.push_back(split(square_of(evaluator, suspects[k]), first));
   if (suspects.size() == 1)
-    candidate.split = {split(sum(evaluator.blocks(evaluator.bare(), only)).square, first)};
-  candidate.least = *std::ranges::min_element(candidate.split);
+    candidate.split = {
+        split(sum(evaluator.blocks(evaluator.nominal_evaluation(), only)).square, first)};
+  candidate.least_split = *std::ranges::min_element(candidate.split);
   return candidate;
 }
 
@@ -125,15 +132,16 @@ Experiment next_experiment(const erp::Robot& robot, const std::vector<Placed>& s
   if (suspects.empty()) throw std::invalid_argument("no suspect: name at least one effect");
   Experiment experiment;
   experiment.candidates.resize(static_cast<std::size_t>(options.candidates));
-  std::atomic<int> done = 0;
+  std::atomic<int> evaluated = 0;
   in_parallel(experiment.candidates.size(), options.threads, [&](std::size_t k) {
     const std::uint64_t seed = options.seed + k / excitation_kinds;
     experiment.candidates[k] =
         evaluate(robot, suspects, static_cast<int>(k % excitation_kinds), seed, options);
-    if (options.progress) options.progress(double(++done) / options.candidates);
+    if (options.progress) options.progress(double(++evaluated) / options.candidates);
   });
   std::ranges::stable_sort(experiment.candidates, [](const Candidate& a, const Candidate& b) {
-    return std::pair(!a.unsafe.empty(), -a.least) < std::pair(!b.unsafe.empty(), -b.least);
+    return std::pair(!a.unsafe.empty(), -a.least_split) <
+           std::pair(!b.unsafe.empty(), -b.least_split);
   });
   const Candidate& best = experiment.candidates.front();
   if (best.unsafe.empty())

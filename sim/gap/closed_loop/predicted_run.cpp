@@ -35,11 +35,11 @@ class PredictedRun {
 
   recording::Table run(const SetPoints& set_points) {
     for (const auto& row : set_points) {
-      before_ = last_;
+      previous_ = last_;
       for (std::size_t a = 0; a < last_.size(); ++a)
         if (!std::isnan(row[a].reference)) last_[a] = row[a];
       simulated_.tick(commanded());
-      put(tick_s * static_cast<double>(table_.rows()));
+      append_row(tick_s * static_cast<double>(table_.rows()));
     }
     return std::move(table_);
   }
@@ -50,38 +50,38 @@ class PredictedRun {
     Regressors regressors;
     double radius_m, supply_V;
     erp::Mode mode;
-    std::vector<Eigen::Vector<double, Regressors::count>> seen;
+    std::vector<Eigen::Vector<double, Regressors::count>> history;
   };
 
-  /// Set-points for the firmware: those given, or the voltages of learned laws.
+  /// Set-points for the firmware: the given ones, or the voltages of learned laws.
   std::vector<SetPoint> commanded() {
-    std::vector<SetPoint> all = last_;
-    if (table_.rows() == 0) return all;  // nothing is measured yet
-    for (std::size_t a = 0; ecu_ && a < all.size(); ++a)
+    std::vector<SetPoint> commands = last_;
+    if (table_.rows() == 0) return commands;  // no measurement before the first tick
+    for (std::size_t a = 0; ecu_ && a < commands.size(); ++a)
       for (const bool newest : {true, false}) {
-        const SetPoint& command = newest ? last_[a] : before_[a];
+        const SetPoint& command = newest ? last_[a] : previous_[a];
         if (const auto law = ecu_->find({a, command.mode});
             law != ecu_->end() && law->second.newest == newest)
-          all[a] = {erp::Mode::voltage, voltage_of(law->second, command, a)};
+          commands[a] = {erp::Mode::voltage, voltage_of(law->second, command, a)};
       }
-    return all;
+    return commands;
   }
   double voltage_of(const LearnedLaw& law, const SetPoint& command, std::size_t a) {
     Loop& loop = loops_[a];
     if (loop.mode != command.mode)
-      loop.mode = command.mode, loop.regressors = {loop.mode, loop.radius_m}, loop.seen.clear();
+      loop.mode = command.mode, loop.regressors = {loop.mode, loop.radius_m}, loop.history.clear();
     const auto& sample = simulated_.sample_of(a);
     const EcuUnits& units = simulated_.units(a);
-    loop.seen.push_back(
+    loop.history.push_back(
         loop.regressors.next({command.reference, units.shaft_rad(sample.encoder_counts),
                               sample.current_counts * units.current_A_per_count,
                               units.tension_N(sample.tension_counts)}));
-    const std::size_t back = std::min(law.lag, loop.seen.size());
-    return std::clamp(law.weights.dot(loop.seen[loop.seen.size() - back]), -loop.supply_V,
+    const std::size_t lag = std::min(law.lag, loop.history.size());
+    return std::clamp(law.weights.dot(loop.history[loop.history.size() - lag]), -loop.supply_V,
                       loop.supply_V);
   }
 
-  /// Reading of its sensor, or the true angle if it has none.
+  /// Reading of the joint's sensor, or the true angle of a joint without a sensor.
   double angle_of(std::size_t joint, const std::string& name) const {
     for (const erp::JointSensor& sensor : robot_.joint_sensors)
       for (const auto& analog : erp::samples(simulated_.frame().analogs))
@@ -90,7 +90,7 @@ class PredictedRun {
     return simulated_.world().joints()[joint].position[0];
   }
 
-  void put(double time_s) {
+  void append_row(double time_s) {
     std::size_t column = 0;
     const auto add = [&](double value) {
       if (!std::isfinite(value)) throw std::runtime_error("the predicted motion is not finite");
@@ -117,7 +117,7 @@ class PredictedRun {
 
   const erp::Robot& robot_;
   SimulatedRobot simulated_;
-  std::vector<SetPoint> last_, before_;
+  std::vector<SetPoint> last_, previous_;
   Noise noise_;
   const LearnedEcu* ecu_;
   std::vector<Loop> loops_;

@@ -9,37 +9,40 @@
 namespace sim::closed_loop {
 namespace {
 
-constexpr double dt_s = 0.001, quiet_s = 0.1;
-constexpr double full_at_rad = 0.1;  ///< error at which the supply voltage is reached; chosen
-constexpr double integral_s = 0.2;   ///< time constant of the integral part; chosen
+constexpr double dt_s = 0.001;
+constexpr double rest_s = 0.1;            ///< duration of rest at the end of a motion; chosen
+constexpr double full_voltage_rad = 0.1;  ///< error at which the supply voltage is reached; chosen
+constexpr double integral_s = 0.2;        ///< time constant of the integral part; chosen
 
 class Winder {
  public:
   explicit Winder(const erp::Robot& robot) : robot_(robot), world_(robot) {
-    from_rad_ = sum_V_ = voltage_V_ = std::vector<double>(robot.actuators.size());
+    start_rad_ = integral_V_ = voltage_V_ = std::vector<double>(robot.actuators.size());
   }
 
-  RestPose to(const std::vector<double>& shaft_rad, const RestPoseOptions& options) {
-    for (std::size_t a = 0; a < from_rad_.size(); ++a)
-      from_rad_[a] = world_.actuators()[a].shaft_rad;
+  RestPose move_to(const std::vector<double>& shaft_rad, const RestPoseOptions& options) {
+    for (std::size_t a = 0; a < start_rad_.size(); ++a)
+      start_rad_[a] = world_.actuators()[a].shaft_rad;
     double still_since_s = 0;
-    for (int k = 0; dt_s * k < options.most_s; ++k) {
+    for (int k = 0; dt_s * k < options.longest_s; ++k) {
       const double at_s = dt_s * k;
-      wind(shaft_rad, std::min(1.0, at_s / options.way_s));
-      if (at_s < options.way_s || !is_at_rest(shaft_rad, options)) still_since_s = at_s;
-      if (at_s - still_since_s > quiet_s) return {pose(), at_s, true};
+      step(shaft_rad, std::min(1.0, at_s / options.ramp_s));
+      if (at_s < options.ramp_s || !is_at_rest(shaft_rad, options)) still_since_s = at_s;
+      if (at_s - still_since_s > rest_s) return {pose(), at_s, true};
     }
-    return {pose(), options.most_s, false};
+    return {pose(), options.longest_s, false};
   }
 
  private:
-  void wind(const std::vector<double>& shaft_rad, double share) {
+  void step(const std::vector<double>& shaft_rad, double progress) {
     for (std::size_t a = 0; a < voltage_V_.size(); ++a) {
       const double supply_V = robot_.motor_of(robot_.actuators[a]).supply_V;
-      const double desired_rad = from_rad_[a] + share * (shaft_rad[a] - from_rad_[a]);
-      const double now_V = supply_V * (desired_rad - world_.actuators()[a].shaft_rad) / full_at_rad;
-      sum_V_[a] = std::clamp(sum_V_[a] + now_V * dt_s / integral_s, -supply_V, supply_V);
-      voltage_V_[a] = std::clamp(now_V + sum_V_[a], -supply_V, supply_V);
+      const double desired_rad = start_rad_[a] + progress * (shaft_rad[a] - start_rad_[a]);
+      const double proportional_V =
+          supply_V * (desired_rad - world_.actuators()[a].shaft_rad) / full_voltage_rad;
+      integral_V_[a] =
+          std::clamp(integral_V_[a] + proportional_V * dt_s / integral_s, -supply_V, supply_V);
+      voltage_V_[a] = std::clamp(proportional_V + integral_V_[a], -supply_V, supply_V);
     }
     world_.step(voltage_V_, dt_s);
     if (!world_.is_finite()) throw std::runtime_error("the robot's motion is not finite");
@@ -47,7 +50,7 @@ class Winder {
 
   bool is_at_rest(const std::vector<double>& shaft_rad, const RestPoseOptions& options) const {
     for (std::size_t a = 0; a < shaft_rad.size(); ++a)
-      if (std::abs(world_.actuators()[a].shaft_rad - shaft_rad[a]) > options.wound_rad)
+      if (std::abs(world_.actuators()[a].shaft_rad - shaft_rad[a]) > options.tolerance_rad)
         return false;
     return std::ranges::all_of(world_.joints(), [&](const JointReading& joint) {
       const auto& v = joint.velocity_rad_per_s;
@@ -63,7 +66,7 @@ class Winder {
 
   const erp::Robot& robot_;
   World world_;
-  std::vector<double> from_rad_, sum_V_, voltage_V_;
+  std::vector<double> start_rad_, integral_V_, voltage_V_;
 };
 
 }  // namespace
@@ -73,7 +76,7 @@ std::vector<RestPose> rest_poses(const erp::Robot& robot,
                                  const RestPoseOptions& options) {
   Winder winder(robot);
   std::vector<RestPose> all;
-  for (const auto& shaft_rad : shafts_rad) all.push_back(winder.to(shaft_rad, options));
+  for (const auto& shaft_rad : shafts_rad) all.push_back(winder.move_to(shaft_rad, options));
   return all;
 }
 

@@ -8,23 +8,24 @@
 #include "sim/gap/residuals/episode.hpp"
 #include "sim/model/effects/library.hpp"
 
-/// Age of the commands that the ECUs followed, and the bus effect that explains its distribution.
+/// Age of the commands that the ECUs applied, and the bus effect that explains the distribution of
+/// ages.
 ///
 ///   followed_k = sent_{k−a}                       a: age in ticks, if both set-points were recorded;
 ///   V_k = law(reference_{k−a}, measured)          otherwise from the applied voltage
 ///
 /// Ticks whose command equals the previous one do not determine an age. The law is that of the ECU
-/// firmware with the gains designed for the robot (sim/control/gain_design), in length or force mode;
-/// ticks at a limit are left out. An effect on the bus predicts the frequency of each age; effects are
-/// compared by their likelihood. A recording whose voltages match no command (ECU with another law)
-/// does not determine the bus.
+/// firmware with the gains designed for the robot (sim/control/gain_design), in length or force
+/// mode. Ticks at a limit are ignored. A bus effect predicts the frequency of each age; effects are
+/// compared by their likelihood. If the voltages of a recording match no command (ECU with another
+/// law), the bus is not evaluated.
 namespace sim::diagnosis {
 
 struct Ages {
   double period_s = 0;
   std::vector<std::size_t> ticks;  ///< number of ticks by age
   std::size_t checked = 0;         ///< ticks with a command that differs from the previous one
-  std::size_t found = 0;           ///< of these, ticks whose age was found
+  std::size_t determined = 0;      ///< of these, ticks whose age was determined
 };
 
 /// Ages of one recording, over all actuators.
@@ -33,31 +34,34 @@ Ages command_ages(const residuals::Episode& episode, const erp::Robot& robot);
 struct BusFit {
   effects::Placed placed;
   double value = 0, low = 0, high = 0;
-  double gain =
-      0;  ///< log-likelihood on held-out recordings, scaled: no effect 0, observed shares 1
+  /// Log-likelihood on held-out recordings, scaled: 0 without an effect, 1 for the observed
+  /// frequencies.
+  double gain = 0;
   bool supported = false;
 };
 
-/// Effects on the bus, best first. Empty if nearly all ages are 0, or too few ages were found.
+/// Fits the bus effects. Returns the best first. Empty if nearly all ages are 0, or too few ages
+/// were determined.
 std::vector<BusFit> fit_bus(std::span<const Ages> train, std::span<const Ages> held_out,
                             const erp::Robot& robot, const std::vector<std::string>& withhold);
 
-/// Share of late ticks above which the bus counts as late; clock drift alone causes less. Chosen.
-inline constexpr double practical_late = 0.02;
+/// Fraction of ticks with a delayed command above which the bus is reported as delayed. Clock drift
+/// causes less. Chosen.
+inline constexpr double negligible_delayed_fraction = 0.02;
 
-/// Whether enough ages were found to evaluate the bus.
+/// Whether enough ages were determined to evaluate the bus.
 bool has_enough_ages(std::span<const Ages> ages);
 
-/// What to record so that the bus can be evaluated; part of messages.
+/// The signals that a recording needs for an evaluation of the bus, as part of messages.
 inline constexpr const char* bus_recording_needs =
     "set-points that change every tick, in length or force mode: MCAP with the set-points sent and "
     "followed, or CSV with mode, reference as sent (erp log export writes those followed) and "
     "voltage_V";
 
-/// Mean age of the commands that were followed.
+/// Mean age of the applied commands in s.
 double mean_age_s(std::span<const Ages> ages);
 
-/// Share of ticks in which the followed command was not the newest.
-double late_share(std::span<const Ages> ages);
+/// Fraction of ticks in which the applied command was not the newest.
+double delayed_fraction(std::span<const Ages> ages);
 
 }  // namespace sim::diagnosis

@@ -9,19 +9,19 @@ namespace {
 
 Verdict verdict_of(const Selection& selection, const Detected& detected,
                    const std::vector<StageGap>& stages) {
-  const bool left = std::ranges::any_of(selection.left, &StageGap::open);
-  const bool coarse_alone = !detected.sensors.empty() && !left;  // coarse sensors explain all
-  if (selection.gap && !coarse_alone)
-    return selection.explained() ? Verdict::supported
-           : selection.shown     ? Verdict::none_of_the_known
-                                 : Verdict::not_identifiable;
+  const bool remaining = std::ranges::any_of(selection.remaining, &StageGap::open);
+  const bool coarse_sensors_explain = !detected.sensors.empty() && !remaining;
+  if (selection.gap && !coarse_sensors_explain)
+    return selection.explained()  ? Verdict::supported
+           : selection.is_visible ? Verdict::none_of_the_known
+                                  : Verdict::not_identifiable;
   if (detected.bus_differs()) return Verdict::supported;
   if (detected.bus_unexplained()) return Verdict::none_of_the_known;
   if (std::ranges::none_of(stages, &StageGap::judged)) return Verdict::not_identifiable;
   return detected.sensors.empty() ? Verdict::no_gap : Verdict::supported;
 }
 
-/// The bus changes no residual, so it comes after other effects.
+/// Adds the bus effect after the other effects because it changes no residual.
 void add_bus(const Detected& detected, Diagnosis& d) {
   if (!detected.bus_differs()) return;
   constexpr double indistinguishable = 0.01;  // of the likelihood's gain; chosen
@@ -31,8 +31,8 @@ void add_bus(const Detected& detected, Diagnosis& d) {
       d.answer.back().alternatives.push_back(detected.bus[k]);
 }
 
-void put_first(std::vector<IdentifiedEffect>& into, const std::vector<IdentifiedEffect>& what) {
-  into.insert(into.begin(), what.begin(), what.end());
+void put_first(std::vector<IdentifiedEffect>& effects, const std::vector<IdentifiedEffect>& added) {
+  effects.insert(effects.begin(), added.begin(), added.end());
 }
 
 void add_ranked(const Detected& detected, Diagnosis& d) {
@@ -40,25 +40,25 @@ void add_ranked(const Detected& detected, Diagnosis& d) {
   put_first(d.ranked, detected.sensors);
 }
 
-/// Coarse sensors come first, the bus last, because it changes no residual.
+/// Adds the detected effects: coarse sensors first, the bus last because it changes no residual.
 void add_detected(const Detected& detected, Diagnosis& d) {
   put_first(d.answer, detected.sensors);
   add_ranked(detected, d);
   add_bus(detected, d);
 }
 
-/// The bus changes no residual, so the whole gap is attributed to it if no stage is open.
+/// Attributes the whole gap to the bus if no stage is open. The bus changes no residual.
 void add_unexplained_bus(const std::string& robot, const Detected& detected, Diagnosis& d) {
   d.warnings.push_back(fmt::format(
       "bus: in {:.0f} % of the ticks an ECU followed an old command, and no effect of the library "
       "explains the ages; check the bus load and the sender's timing",
-      100 * detected.late));
+      100 * detected.delayed_fraction));
   if (d.where.empty()) d.where.push_back({effects::Stage::bus, robot, 1, {1, 1}, {}});
 }
 
-/// Reason why constants that would explain the gap are not the answer.
-void warn_of_unknown_law(const std::vector<StageGap>& left, Diagnosis& d) {
-  const auto stage = std::ranges::max_element(left, {}, &StageGap::excess);
+/// Warns that constants that would explain the gap are not the answer.
+void warn_of_unknown_law(const std::vector<StageGap>& remaining, Diagnosis& d) {
+  const auto stage = std::ranges::max_element(remaining, {}, &StageGap::excess);
   d.warnings.push_back(
       fmt::format("only the {} of {} has a gap: an unknown law there is likelier than several "
                   "wrong constants whose errors cancel at every other stage; inspect that part",
@@ -75,21 +75,23 @@ void conclude(const Question& q, const JointEstimate& built, Selection selection
   add_ranked(q.detected, d);
   d.answer = built.answer, d.constants = built.constants, d.as_built = built.robot;
   d.interaction = built.interaction;
-  if (built.unknown_law) warn_of_unknown_law(built.left, d);
+  if (built.unknown_law) warn_of_unknown_law(built.remaining, d);
   put_first(d.answer, q.detected.sensors);
   add_bus(q.detected, d);
   if (built.explained() && !d.answer.empty())
-    d.where = attribute_to_answer(q.problem, q.plain, d.stages, d.answer);
-  else if (built.explained()) d.where = built.off;
-  for (const StageGap& gap : built.left)
+    d.where = attribute_to_answer(q.problem, q.baseline, d.stages, d.answer);
+  else if (built.explained()) d.where = built.deviating_parts;
+  for (const StageGap& gap : built.remaining)
     if (gap.open && !built.explained())
       d.where.push_back({gap.stage, gap.on, gap.share, {0, 1}, {}});
-  selection.answer = built.answer, selection.left = built.left,
-  selection.evaluation = built.evaluator.bare();
+  selection.answer = built.answer, selection.remaining = built.remaining,
+  selection.evaluation = built.evaluator.nominal_evaluation();
   d.unexplained = unexplained(q.problem, built.evaluator, selection);
-  d.channels = closed_by_stage(q.problem, q.plain, built.evaluator, built.evaluator.bare());
-  d.overall = closed_overall(q.problem, q.plain, built.evaluator, built.evaluator.bare());
-  d.worst = worst_windows(q.problem, q.plain, built.evaluator.bare(), d.stages);
+  d.channels =
+      closed_by_stage(q.problem, q.baseline, built.evaluator, built.evaluator.nominal_evaluation());
+  d.overall =
+      closed_overall(q.problem, q.baseline, built.evaluator, built.evaluator.nominal_evaluation());
+  d.worst = worst_windows(q.problem, q.baseline, built.evaluator.nominal_evaluation(), d.stages);
 }
 
 void conclude(const Question& q, const Selection& selection, Diagnosis& d) {
@@ -104,13 +106,13 @@ void conclude(const Question& q, const Selection& selection, Diagnosis& d) {
             ? "the held-out recordings show too little of the gap to identify its cause; record "
               "more motions like those under `where`, `when` of diagnosis.json"
             : "no stage could be evaluated; record all signals during motions of several seconds");
-  d.where = explained ? attribute_to_answer(q.problem, q.plain, d.stages, d.answer)
-                      : attribute_to_parts(q.problem, q.plain, d.stages, d.ranked);
+  d.where = explained ? attribute_to_answer(q.problem, q.baseline, d.stages, d.answer)
+                      : attribute_to_parts(q.problem, q.baseline, d.stages, d.ranked);
   if (q.detected.bus_unexplained()) add_unexplained_bus(q.problem.robot.name, q.detected, d);
-  if (selection.gap) d.unexplained = unexplained(q.problem, q.known, selection);
-  d.channels = closed_by_stage(q.problem, q.plain, q.known, selection.evaluation);
-  d.overall = closed_overall(q.problem, q.plain, q.known, selection.evaluation);
-  d.worst = worst_windows(q.problem, q.plain, selection.evaluation, d.stages);
+  if (selection.gap) d.unexplained = unexplained(q.problem, q.corrected, selection);
+  d.channels = closed_by_stage(q.problem, q.baseline, q.corrected, selection.evaluation);
+  d.overall = closed_overall(q.problem, q.baseline, q.corrected, selection.evaluation);
+  d.worst = worst_windows(q.problem, q.baseline, selection.evaluation, d.stages);
 }
 
 }  // namespace sim::diagnosis

@@ -10,15 +10,15 @@ namespace sim::diagnosis {
 /// Inputs of a diagnosis.
 struct Question {
   const Problem& problem;
-  const erp::Robot& robot;  ///< as given, with the directly detected effects on sensors
-  const Evaluator& plain;   ///< of the robot as given
-  const Evaluator& known;   ///< of `robot`
+  const erp::Robot& robot;     ///< the given robot with the directly detected effects on sensors
+  const Evaluator& baseline;   ///< of the given robot
+  const Evaluator& corrected;  ///< of `robot`
   const Detected& detected;
 };
 
-/// Takes the answer of the joint estimate: effects and constants estimated together.
+/// Writes the answer of the joint estimate: jointly estimated effects and constants.
 void conclude(const Question& q, const JointEstimate& built, Selection selection, Diagnosis& d);
-/// Takes the answer of a selection of effects on the robot's constants as given.
+/// Writes the answer of a selection of effects with the given constants.
 void conclude(const Question& q, const Selection& selection, Diagnosis& d);
 
 }  // namespace sim::diagnosis

@@ -16,30 +16,32 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double rank_tolerance = 1e-9;  // of the pivots of G
-constexpr double worth_it = 0.99;  // an effect is replaced if the remainder falls below this share
+// Largest remainder / previous one for a replacement; chosen.
+constexpr double replacement_ratio = 0.99;
 
-/// Scalar products of all sensitivities: remainders are computed from these alone.
+/// Scalar products of all sensitivities. Remainders are computed from these products.
 class Products {
  public:
   Products(const std::vector<Sensitivity>& all, int threads) : all_(all) {
     Index columns = 0;
     for (const Sensitivity& d : all) begins_.push_back(columns), columns += d.span.cols();
-    gram_.resize(columns, columns), onto_.resize(columns, static_cast<Index>(all.size()));
+    gram_.resize(columns, columns), projections_.resize(columns, static_cast<Index>(all.size()));
     in_parallel(all.size(), threads, [&](std::size_t i) {
       const MatrixXd rows = all_[i].span.transpose();
       for (std::size_t j = 0; j < all_.size(); ++j) {
         gram_.block(begins_[i], begins_[j], rows.rows(), all_[j].span.cols()) = rows * all_[j].span;
-        onto_.block(begins_[i], static_cast<Index>(j), rows.rows(), 1) = rows * all_[j].first;
+        projections_.block(begins_[i], static_cast<Index>(j), rows.rows(), 1) =
+            rows * all_[j].first;
       }
     });
   }
 
-  /// |δz| of one effect that the others do not reproduce.
+  /// The part of |δz| of one effect that the others do not reproduce.
   double remainder(std::size_t hidden, const std::vector<std::size_t>& others) const {
     std::vector<Index> at;
     for (const std::size_t o : others)
       for (Index c = 0; c < all_[o].span.cols(); ++c) at.push_back(begins_[o] + c);
-    const VectorXd b = onto_(at, static_cast<Index>(hidden));
+    const VectorXd b = projections_(at, static_cast<Index>(hidden));
     Eigen::CompleteOrthogonalDecomposition<MatrixXd> g;
     g.setThreshold(rank_tolerance);
     g.compute(gram_(at, at));
@@ -49,56 +51,60 @@ class Products {
  private:
   const std::vector<Sensitivity>& all_;
   std::vector<Index> begins_;
-  MatrixXd gram_;  ///< SᵀS
-  MatrixXd onto_;  ///< Sᵀδz, a column each
+  MatrixXd gram_;         ///< SᵀS
+  MatrixXd projections_;  ///< Sᵀδz, a column for each effect
 };
 
-struct Next {
+struct NextEffect {
   std::size_t index = 0;
-  double left = std::numeric_limits<double>::infinity();
+  double remaining = std::numeric_limits<double>::infinity();
 };
 
-/// The effect with the smallest remainder of `hidden` together with those chosen.
-Next next(const std::vector<Sensitivity>& all, const Products& products, std::size_t hidden,
-          std::vector<std::size_t> chosen) {
+/// The effect that, added to the chosen ones, gives the smallest remainder of `hidden`.
+NextEffect next(const std::vector<Sensitivity>& all, const Products& products, std::size_t hidden,
+                std::vector<std::size_t> chosen) {
   const auto type = [&](std::size_t k) { return effects::about(all[k].perturbed.effect).type; };
-  Next best;
+  NextEffect best;
   chosen.push_back(0);
   for (std::size_t k = 0; k < all.size(); ++k) {
     if (type(k) == type(hidden) || all[k].span.cols() == 0) continue;
     chosen.back() = k;
-    if (const double left = products.remainder(hidden, chosen); left < best.left) best = {k, left};
+    if (const double remaining = products.remainder(hidden, chosen); remaining < best.remaining)
+      best = {k, remaining};
   }
   return best;
 }
 
-/// Replaces each chosen effect in turn if another has a smaller remainder with the rest. Returns the remainder.
+/// Replaces each chosen effect in turn if another one has a smaller remainder with the others.
+/// Returns the remainder.
 double exchange(const std::vector<Sensitivity>& all, const Products& products, std::size_t hidden,
-                std::vector<std::size_t>& chosen, double left) {
-  for (std::size_t kept = 0, at = 0; kept < chosen.size(); at = (at + 1) % chosen.size()) {
-    auto rest = chosen;
-    rest.erase(rest.begin() + long(at));
-    const Next better = next(all, products, hidden, rest);
-    const bool worth = better.left < worth_it * left;
-    if (worth) chosen[at] = better.index, left = better.left;
-    kept = worth ? 1 : kept + 1;
+                std::vector<std::size_t>& chosen, double remaining) {
+  for (std::size_t unchanged = 0, at = 0; unchanged < chosen.size();
+       at = (at + 1) % chosen.size()) {
+    auto others = chosen;
+    others.erase(others.begin() + long(at));
+    const NextEffect candidate = next(all, products, hidden, others);
+    const bool is_better = candidate.remaining < replacement_ratio * remaining;
+    if (is_better) chosen[at] = candidate.index, remaining = candidate.remaining;
+    unchanged = is_better ? 1 : unchanged + 1;
   }
-  return left;
+  return remaining;
 }
 
 /// Adds effects until the remainder is at most `share`, or their number is `most`.
 Indistinguishable confounders_of(const std::vector<Sensitivity>& all, const Products& products,
                                  std::size_t hidden, const ConfounderOptions& options) {
   const double magnitude = all[hidden].first.norm();
-  double left = magnitude;
+  double remaining = magnitude;
   std::vector<std::size_t> chosen;
-  while (magnitude >= shown && chosen.size() < options.most && left > options.share * magnitude) {
-    const Next more = next(all, products, hidden, chosen);
-    if (std::isinf(more.left)) break;
-    chosen.push_back(more.index);
-    left = exchange(all, products, hidden, chosen, more.left);
+  while (magnitude >= visible_change && chosen.size() < options.most &&
+         remaining > options.share * magnitude) {
+    const NextEffect next_effect = next(all, products, hidden, chosen);
+    if (std::isinf(next_effect.remaining)) break;
+    chosen.push_back(next_effect.index);
+    remaining = exchange(all, products, hidden, chosen, next_effect.remaining);
   }
-  Indistinguishable result{all[hidden].perturbed, {}, magnitude, left};
+  Indistinguishable result{all[hidden].perturbed, {}, magnitude, remaining};
   for (const std::size_t k : chosen) result.others.push_back(all[k].perturbed);
   return result;
 }

@@ -14,7 +14,7 @@
 namespace sim::diagnosis {
 namespace {
 
-/// Names of recordings, each once: a split recording is two episodes.
+/// Names of recordings without duplicates. A split recording is two episodes.
 std::vector<std::string> names_of(const Problem& problem, const std::vector<std::size_t>& set) {
   std::vector<std::string> names;
   for (const std::size_t k : set)
@@ -23,30 +23,32 @@ std::vector<std::string> names_of(const Problem& problem, const std::vector<std:
   return names;
 }
 
-/// Whether the best single effect leaves only noise on a robot for which the joint estimate takes many
-/// minutes: its time grows with the square of the number of actuators.
+/// Whether the best single effect leaves only noise on a robot with many actuators. The time of a
+/// joint estimate grows with the square of their number.
 bool leaves_noise_on_large_robot(const Problem& problem, const Selection& selection) {
-  constexpr std::size_t large = 12;  // actuators; chosen
-  constexpr double noise = 0.2;      // excess; chosen
-  return problem.robot.actuators.size() > large && selection.explained() &&
-         std::ranges::none_of(selection.left, [](const StageGap& g) { return g.excess > noise; });
+  constexpr std::size_t many_actuators = 12;  // chosen
+  constexpr double noise_excess = 0.2;        // chosen
+  return problem.robot.actuators.size() > many_actuators && selection.explained() &&
+         std::ranges::none_of(selection.remaining,
+                              [](const StageGap& g) { return g.excess > noise_excess; });
 }
 
-/// Whether both found the same single effect, and it explains the gap.
+/// Whether both methods found the same single effect, and it explains the gap.
 bool agree(const JointEstimate& built, const Selection& selection) {
   return built.exact && built.answer.size() == 1 && selection.explained() &&
          selection.answer.size() == 1 && built.answer[0].is(selection.answer[0].placed);
 }
 
-/// Whether each cause of an answer has its own place: several at one place can fit nearly any law.
-bool have_own_places(const std::vector<IdentifiedEffect>& answer) {
+/// Whether all causes of an answer have different places. Several causes at one place can fit
+/// nearly any law.
+bool have_different_places(const std::vector<IdentifiedEffect>& answer) {
   for (std::size_t a = 0; a < answer.size(); ++a)
     for (std::size_t b = a + 1; b < answer.size(); ++b)
       if (answer[a].stage == answer[b].stage && answer[a].on == answer[b].on) return false;
   return true;
 }
 
-std::ptrdiff_t open_in(const std::vector<StageGap>& gaps) {
+std::ptrdiff_t count_open(const std::vector<StageGap>& gaps) {
   return std::ranges::count_if(gaps, &StageGap::open);
 }
 
@@ -58,63 +60,67 @@ void add_indistinguishable(IdentifiedEffect& answer, const IdentifiedEffect& oth
       answer.alternatives.push_back(n);
 }
 
-/// Replaces values and intervals of the single effect by those of the joint estimate, which fits the zeros too and uses
-/// the noise floor of the robot with the effect. With the noise floor of the robot as described, least squares
-/// underestimates an effect that multiplies a noisy signal, and its interval (errors in variables). Returns false and
-/// keeps `selection` if these values leave a stage open without the fitted zeros.
-bool take_estimate(const Question& q, const IdentifiedEffect& estimated, Selection& selection) {
+/// Replaces values and intervals of the single effect by those of the joint estimate. The joint
+/// estimate fits the zeros too and uses the noise floor of the robot with the effect. With the
+/// noise floor of the robot as described, least squares underestimates an effect that multiplies a
+/// noisy signal, and its interval (errors in variables). Returns false and does not change
+/// `selection` if these values leave a stage open without the fitted zeros.
+bool use_estimate(const Question& q, const IdentifiedEffect& estimated, Selection& selection) {
   const Problem& problem = q.problem;
-  Evaluation evaluation = q.known.with(q.known.bare(), estimated.placed, problem.sets.all());
-  auto left = unexplained_stages(problem, q.known, evaluation, problem.options.alone);
-  if (any_open(left)) return false;
-  const ShapleyValues gain = shapley_values(problem, q.known, {estimated.placed});
+  Evaluation evaluation =
+      q.corrected.with(q.corrected.nominal_evaluation(), estimated.placed, problem.sets.all());
+  auto remaining = unexplained_stages(problem, q.corrected, evaluation, problem.options.single);
+  if (any_open(remaining)) return false;
+  const ShapleyValues gain = shapley_values(problem, q.corrected, {estimated.placed});
   IdentifiedEffect& answer = selection.answer[0];
   answer.placed = estimated.placed;
   answer.values = estimated.values, answer.intervals = estimated.intervals;
   answer.gain = gain.share[0], answer.gain_interval = gain.interval[0];
-  selection.evaluation = std::move(evaluation), selection.left = std::move(left);
+  selection.evaluation = std::move(evaluation), selection.remaining = std::move(remaining);
   return true;
 }
 
-/// Splits the recordings again by the residuals of this robot; returns whether the split changed.
+/// Splits the recordings again by the residuals of a robot. Returns whether the split changed.
 using SplitAgain = std::function<bool(const erp::Robot&)>;
 
-/// Whether a joint estimate is accepted without a search for several effects with constants as given: it explains the
-/// gap with one effect, or with estimated constants. For a drive, whose friction is all at one place, it must leave only
-/// noise.
+/// Whether a joint estimate is accepted without a search for several effects with the given
+/// constants: it explains the gap with one effect, or with estimated constants. For a drive it must
+/// leave only noise, because its whole friction is at one place.
 bool is_sufficient(const Problem& problem, const JointEstimate& built) {
   if (problem.robot.drives.empty())
     return built.explained() && (!built.exact || built.answer.size() == 1);
-  const double noise = problem.options.together.excess;
+  const double noise = problem.options.effect_set.excess;
   return built.explained() &&
-         std::ranges::all_of(built.left, [&](const StageGap& g) { return g.excess < noise; });
+         std::ranges::all_of(built.remaining, [&](const StageGap& g) { return g.excess < noise; });
 }
 
-/// Finds the answer: the joint estimate, unless effects alone explain the gap as well or better. Returns false if
-/// neither explains it and the recordings were split again.
+/// Finds the answer: the joint estimate, unless effects alone explain the gap equally well or
+/// better. Returns false if neither explains it and the recordings were split again.
 bool answer(const Question& q, const SplitAgain& split_again, Diagnosis& d) {
   const Problem& problem = q.problem;
-  const bool coarse = !q.detected.sensors.empty();
+  const bool has_coarse_sensors = !q.detected.sensors.empty();
   Selection selection =
-      select(problem, q.known, d.stages, coarse ? Depth::full : Depth::best_alone);
+      select(problem, q.corrected, d.stages, has_coarse_sensors ? Depth::full : Depth::best_single);
   std::optional<JointEstimate> built;
   if (leaves_noise_on_large_robot(problem, selection)) {
     if (selection.answer.size() == 1)
-      take_estimate(q, estimated(problem, q.robot, selection.answer[0]), selection);
-  } else if (selection.gap && selection.shown && !(coarse && selection.explained()))
-    built.emplace(estimate_jointly(problem, q.robot, q.plain, selection.answer));
+      use_estimate(q, estimated(problem, q.robot, selection.answer[0]), selection);
+  } else if (selection.gap && selection.is_visible &&
+             !(has_coarse_sensors && selection.explained()))
+    built.emplace(estimate_jointly(problem, q.robot, q.baseline, selection.answer));
   if (built && agree(*built, selection)) {
     add_indistinguishable(selection.answer[0], built->answer[0]);
-    if (take_estimate(q, built->answer[0], selection)) built.reset();
+    if (use_estimate(q, built->answer[0], selection)) built.reset();
     else built->answer[0].alternatives = selection.answer[0].alternatives;
   } else if (built && !built->explained() && !selection.explained() && split_again(built->robot)) {
     return false;
   } else if (built && built->unknown_law) {
-    if (selection.explained()) built.reset();  // by one effect
+    if (selection.explained()) built.reset();  // one effect explains the gap
   } else if (built && !is_sufficient(problem, *built)) {
-    selection = select(problem, q.known, d.stages, Depth::full, std::move(selection));
-    const bool leaves_less = open_in(built->left) < open_in(selection.left);
-    if (selection.explained() || !leaves_less || !have_own_places(built->answer)) built.reset();
+    selection = select(problem, q.corrected, d.stages, Depth::full, std::move(selection));
+    const bool leaves_less = count_open(built->remaining) < count_open(selection.remaining);
+    if (selection.explained() || !leaves_less || !have_different_places(built->answer))
+      built.reset();
   }
   if (built) conclude(q, *built, std::move(selection), d);
   else conclude(q, selection, d);
@@ -123,20 +129,20 @@ bool answer(const Question& q, const SplitAgain& split_again, Diagnosis& d) {
 
 /// The robot with the directly detected effects on sensors.
 erp::Robot as_detected(const erp::Robot& robot, const Detected& detected) {
-  erp::Robot known = robot;
+  erp::Robot corrected = robot;
   for (const IdentifiedEffect& n : detected.sensors)
-    known.effects.push_back(effects::written(n.placed));
-  return known;
+    corrected.effects.push_back(effects::written(n.placed));
+  return corrected;
 }
 
-/// Diagnosis of recordings that are split into sets. `plain`: evaluator of the robot as given. Empty if the recordings
-/// were split again.
-std::optional<Diagnosis> diagnosed(Problem& problem, const Evaluator& plain,
+/// Diagnosis of recordings that are split into sets. `baseline`: evaluator of the given robot.
+/// Empty if the recordings were split again.
+std::optional<Diagnosis> diagnosed(Problem& problem, const Evaluator& baseline,
                                    const CutRecordings& cut, const SplitAgain& split_again) {
   const erp::Robot& robot = problem.robot;
   Diagnosis d;
   d.recordings = names_of(problem, problem.sets.all());
-  d.shared = cut.shared, d.warnings = cut.warnings;
+  d.split_recordings = cut.split_recordings, d.warnings = cut.warnings;
   if (problem.sets.held_out.empty()) {
     problem.sets.held_out = problem.sets.train;
     d.warnings.emplace_back(
@@ -149,18 +155,19 @@ std::optional<Diagnosis> diagnosed(Problem& problem, const Evaluator& plain,
   }
   d.train = names_of(problem, problem.sets.train);
   d.held_out = names_of(problem, problem.sets.held_out);
-  d.stages = localize(plain, plain.bare(), problem.sets.all(), problem.localization_options());
+  d.stages = localize(baseline, baseline.nominal_evaluation(), problem.sets.all(),
+                      problem.localization_options());
 
-  const Detected detected = detect_directly(problem, plain);
-  const erp::Robot known = as_detected(robot, detected);
+  const Detected detected = detect_directly(problem, baseline);
+  const erp::Robot corrected = as_detected(robot, detected);
   std::optional<Evaluator> coarse;
-  if (!detected.sensors.empty()) coarse.emplace(known, problem.episodes, problem.options.seed);
-  const Question question{problem, known, plain, coarse ? *coarse : plain, detected};
+  if (!detected.sensors.empty()) coarse.emplace(corrected, problem.episodes, problem.options.seed);
+  const Question question{problem, corrected, baseline, coarse ? *coarse : baseline, detected};
   warn_not_evaluated(problem, detected, d);
   if (!answer(question, split_again, d)) return std::nullopt;
-  drop_alternatives_at_bounds(d.answer);
+  remove_alternatives_at_bounds(d.answer);
   require_determined(d);
-  require_sampling(plain, d);
+  require_sampling(baseline, d);
   return d;
 }
 
@@ -177,18 +184,18 @@ Diagnosis diagnose(const erp::Robot& robot, std::vector<residuals::Episode> epis
   Problem problem{robot, std::move(episodes), options, {}};
   problem.sets = first_sets(problem);
   problem.report_progress("residuals", 0.05);
-  const auto evaluator = [&](const erp::Robot& of) {
-    return Evaluator(of, problem.episodes, options.seed);
+  const auto evaluator = [&](const erp::Robot& evaluated) {
+    return Evaluator(evaluated, problem.episodes, options.seed);
   };
   CutRecordings cut;
-  std::optional<Evaluator> plain(evaluator(robot));
-  if (split_by_residual(problem, *plain, cut)) plain.emplace(evaluator(robot));
-  std::optional<Diagnosis> d = diagnosed(problem, *plain, cut, [&](const erp::Robot& built) {
+  std::optional<Evaluator> baseline(evaluator(robot));
+  if (split_by_residual(problem, *baseline, cut)) baseline.emplace(evaluator(robot));
+  std::optional<Diagnosis> d = diagnosed(problem, *baseline, cut, [&](const erp::Robot& built) {
     return split_by_residual(problem, evaluator(built), cut);
   });
   if (!d) {
-    plain.emplace(evaluator(robot));
-    d = diagnosed(problem, *plain, cut, [](const erp::Robot&) { return false; });
+    baseline.emplace(evaluator(robot));
+    d = diagnosed(problem, *baseline, cut, [](const erp::Robot&) { return false; });
   }
   problem.report_progress("done", 1);
   return std::move(*d);

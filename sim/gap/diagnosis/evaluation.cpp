@@ -13,13 +13,13 @@ Evaluator::Evaluator(const erp::Robot& nominal, std::vector<residuals::Episode> 
                      std::uint64_t seed)
     : nominal_(nominal), episodes_(std::move(episodes)), seed_(seed) {
   residuals::Stages stages(nominal);
-  bool any = false;
+  bool has_stage = false;
   for (const residuals::Episode& episode : episodes_) {
-    bare_.of_episode.push_back(stages.explain(episode));
+    nominal_evaluation_.of_episode.push_back(stages.explain(episode));
     floors_.push_back(residuals::floors(stages, episode, nominal, seed));
-    any |= !bare_.of_episode.back().residuals.empty();
+    has_stage |= !nominal_evaluation_.of_episode.back().residuals.empty();
   }
-  if (!any)
+  if (!has_stage)
     throw std::invalid_argument(
         nominal.drives.empty()
             ? "no stage can be evaluated: a motor needs voltage_V, shaft_rad and current_A; a "
@@ -42,11 +42,11 @@ std::vector<residuals::Floor> Evaluator::floor_under(const Evaluation& evaluatio
   return residuals::floors(stages, episodes_[episode], nominal_, seed_);
 }
 
-Evaluation Evaluator::with(const Evaluation& base, const effects::Placed& more,
+Evaluation Evaluator::with(const Evaluation& base, const effects::Placed& added,
                            std::span<const std::size_t> episodes) const {
   std::vector<effects::Placed> all = base.effects;
-  all.push_back(more);
-  return with_one_changed(base, std::move(all), more, episodes);
+  all.push_back(added);
+  return with_one_changed(base, std::move(all), added, episodes);
 }
 
 Evaluation Evaluator::changed(const Evaluation& base, std::size_t k, const effects::Placed& other,
@@ -56,7 +56,7 @@ Evaluation Evaluator::changed(const Evaluation& base, std::size_t k, const effec
   const auto estimated = [&](std::size_t e) { return base.of_episode[e].joints->estimated; };
   if (std::ranges::any_of(episodes, estimated) &&
       residuals::Stages(robot_with(all)).reach(other).line)
-    return with(all, episodes);  // the search for joint angles needs the same start
+    return with(all, episodes);  // the search for joint angles must start at the same angles
   return with_one_changed(base, std::move(all), other, episodes);
 }
 
@@ -79,25 +79,26 @@ Evaluation Evaluator::with(std::span<const effects::Placed> all,
   const auto reaches = [&](auto what) {
     return std::ranges::any_of(all, [&](const auto& placed) { return what(stages.reach(placed)); });
   };
-  const bool moves =
+  const bool changes_joints =
       reaches([](const residuals::Reach& r) { return r.joints || r.path.has_value(); });
   for (const std::size_t k : episodes)
-    evaluation.of_episode[k] =
-        stages.explain(episodes_[k], moves ? nullptr : bare_.of_episode[k].joints);
+    evaluation.of_episode[k] = stages.explain(
+        episodes_[k], changes_joints ? nullptr : nominal_evaluation_.of_episode[k].joints);
   return evaluation;
 }
 
 std::vector<double> Evaluator::whitened(const Evaluation& evaluation, std::size_t episode) const {
-  const auto& bare = bare_.of_episode[episode].residuals;
+  const auto& nominal = nominal_evaluation_.of_episode[episode].residuals;
   const auto& changed = evaluation.of_episode[episode].residuals;
   std::vector<double> all;
-  for (std::size_t r = 0; r < bare.size(); ++r) {
+  for (std::size_t r = 0; r < nominal.size(); ++r) {
     const residuals::Floor& floor = floors_[episode][r];
-    for (std::size_t k = 0; k < bare[r].value.size(); ++k) {
-      const bool judged = floor.rms > 0 && !std::isnan(bare[r].value[k]);
+    for (std::size_t k = 0; k < nominal[r].value.size(); ++k) {
+      const bool judged = floor.rms > 0 && !std::isnan(nominal[r].value[k]);
       const bool available = r < changed.size() && !std::isnan(changed[r].value[k]);
-      all.push_back(judged ? residuals::normalized(available ? changed[r] : bare[r], k, floor.at[k])
-                           : std::numeric_limits<double>::quiet_NaN());
+      all.push_back(
+          judged ? residuals::normalized(available ? changed[r] : nominal[r], k, floor.by_window[k])
+                 : std::numeric_limits<double>::quiet_NaN());
     }
   }
   return all;
@@ -109,18 +110,19 @@ std::vector<ScoreBlock> Evaluator::blocks(
   std::vector<ScoreBlock> blocks;
   for (const std::size_t e : episodes) {
     const auto z = whitened(evaluation, e);
-    const auto& residuals = bare_.of_episode[e].residuals;
-    const std::size_t windows = bare_.of_episode[e].rows.size(), first = blocks.size();
+    const auto& residuals = nominal_evaluation_.of_episode[e].residuals;
+    const std::size_t windows = nominal_evaluation_.of_episode[e].rows.size(),
+                      first = blocks.size();
     const auto windows_a_block =
         std::max<std::size_t>(1, static_cast<std::size_t>(block_s / residuals::Windows{}.stride_s));
     blocks.resize(first + (windows + windows_a_block - 1) / windows_a_block);
     for (std::size_t r = 0; r < residuals.size(); ++r) {
       if (counts && !counts(residuals[r])) continue;
       for (std::size_t k = 0; k < windows; ++k) {
-        const double here = z[r * windows + k];
-        if (std::isnan(here)) continue;
+        const double value = z[r * windows + k];
+        if (std::isnan(value)) continue;
         ScoreBlock& block = blocks[first + k / windows_a_block];
-        block.square += here * here, ++block.windows;
+        block.square += value * value, ++block.windows;
       }
     }
   }

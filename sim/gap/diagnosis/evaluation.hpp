@@ -11,8 +11,8 @@
 ///   z = r/σ     r: residual of a stage in a window, σ: its noise floor there
 ///   S = Σ z²    over stages and windows that can be evaluated for the nominal robot
 ///
-/// If effects make a window impossible to evaluate, its nominal residual is kept: otherwise an effect
-/// would gain by invalidating windows.
+/// If a window cannot be evaluated with the effects, its nominal residual is used. Otherwise
+/// effects would gain by invalidating windows.
 namespace sim::diagnosis {
 
 /// Residuals of the robot with `effects` on every recording.
@@ -29,21 +29,22 @@ struct ScoreBlock {
 
 class Evaluator {
  public:
-  /// Throws as Stages, and std::invalid_argument if no stage can be evaluated in the recordings.
+  /// Throws the exceptions of Stages, and std::invalid_argument if no stage can be evaluated in the
+  /// recordings.
   Evaluator(const erp::Robot& nominal, std::vector<residuals::Episode> episodes,
             std::uint64_t seed = 1);
 
   std::span<const residuals::Episode> episodes() const { return episodes_; }
   const erp::Robot& nominal() const { return nominal_; }
-  /// Of the nominal robot without further effects.
-  const Evaluation& bare() const { return bare_; }
+  /// The evaluation of the nominal robot without additional effects.
+  const Evaluation& nominal_evaluation() const { return nominal_evaluation_; }
 
-  /// With the effects of `base` and one more, on `episodes`; other recordings stay empty.
-  Evaluation with(const Evaluation& base, const effects::Placed& more,
+  /// Evaluates the effects of `base` and one more on `episodes`. Other recordings remain empty.
+  Evaluation with(const Evaluation& base, const effects::Placed& added,
                   std::span<const std::size_t> episodes) const;
   Evaluation with(std::span<const effects::Placed> all,
                   std::span<const std::size_t> episodes) const;
-  /// With the effects of `base`, of which effect k is replaced by `other`.
+  /// Evaluates the effects of `base` with effect k replaced by `other`.
   Evaluation changed(const Evaluation& base, std::size_t k, const effects::Placed& other,
                      std::span<const std::size_t> episodes) const;
 
@@ -54,20 +55,21 @@ class Evaluator {
                                  std::span<const std::size_t> episodes,
                                  const std::function<bool(const residuals::Residual&)>& counts = {},
                                  double block_s = 1) const;
-  /// σ of one residual of a recording, rms over its windows.
+  /// Noise floor σ of one residual of a recording, rms over its windows.
   double floor(std::size_t episode, std::size_t residual) const {
     return floors_[episode][residual].rms;
   }
-  /// Noise floors of a robot with effects: compensating a low-pass amplifies noise. In the order of the
-  /// residuals of `evaluation`; costs two evaluations of the recording.
+  /// Noise floors of the robot with effects, in the order of the residuals of `evaluation`. They
+  /// differ because, for example, the compensation of a low-pass amplifies noise. Costs two
+  /// evaluations of the recording.
   std::vector<residuals::Floor> floor_under(const Evaluation& evaluation,
                                             std::size_t episode) const;
 
-  /// nominal() with these effects in addition to its own.
+  /// The nominal robot with additional effects.
   erp::Robot robot_with(std::span<const effects::Placed> all) const;
 
  private:
-  /// With `all`, of which only `differs` is not in `base`.
+  /// Evaluates the effects `all`, of which only `differs` is not in `base`.
   Evaluation with_one_changed(const Evaluation& base, std::vector<effects::Placed> all,
                               const effects::Placed& differs,
                               std::span<const std::size_t> episodes) const;
@@ -75,7 +77,7 @@ class Evaluator {
   erp::Robot nominal_;
   std::vector<residuals::Episode> episodes_;
   std::uint64_t seed_;
-  Evaluation bare_;
+  Evaluation nominal_evaluation_;
   std::vector<std::vector<residuals::Floor>> floors_;
 };
 

@@ -16,8 +16,8 @@
 namespace sim::diagnosis {
 namespace {
 
-/// A parameter in the coordinate of the optimiser: u = 1 + value/scale, so that a step relative to u is
-/// relative to the scale.
+/// A parameter in the coordinate of the optimizer, u = 1 + value/scale. Ceres makes steps relative
+/// to u; near u = 1 they are relative to the scale.
 struct ScaledParameter {
   double* value;
   effects::Bounds bounds;
@@ -37,19 +37,19 @@ std::vector<ScaledParameter> scaled_parameters(effects::AnyEffect& effect) {
 
 using Effects = std::vector<effects::Placed>;
 
-/// Cache of the last residual vectors. Ceres requests each repeatedly: in its line search, for the cost of
-/// the step, and for the derivatives.
+/// Cache of the last residual vectors. Ceres requests each repeatedly: in its line search, for the
+/// cost of the step, and for the derivatives.
 class Cache {
  public:
   using Vector = std::vector<double>;
 
   const Vector* find(const Vector& u) const {
-    const auto found = std::ranges::find(all_, u, &std::pair<Vector, Vector>::first);
-    return found == all_.end() ? nullptr : &found->second;
+    const auto entry = std::ranges::find(all_, u, &std::pair<Vector, Vector>::first);
+    return entry == all_.end() ? nullptr : &entry->second;
   }
   const Vector& store(Vector u, Vector z) {
-    const std::size_t kept = 2 * (u.size() + 1);  // two steps with their derivatives
-    if (all_.size() == kept) all_.pop_front();
+    const std::size_t capacity = 2 * (u.size() + 1);  // two steps with their derivatives
+    if (all_.size() == capacity) all_.pop_front();
     return all_.emplace_back(std::move(u), std::move(z)).second;
   }
 
@@ -69,13 +69,13 @@ struct Cost {
 
   bool operator()(double const* const* at, double* z) const {
     const std::vector<double> u(at[0], at[0] + scaled.size());
-    const std::vector<double>* known = cache.find(u);
-    std::ranges::copy(known ? *known : cache.store(u, of(u)), z);
+    const std::vector<double>* cached = cache.find(u);
+    std::ranges::copy(cached ? *cached : cache.store(u, z_at(u)), z);
     return true;
   }
 
  private:
-  std::vector<double> of(const std::vector<double>& u) const {
+  std::vector<double> z_at(const std::vector<double>& u) const {
     for (std::size_t k = 0; k < scaled.size(); ++k) *scaled[k].value = scaled[k].to_value(u[k]);
     const Evaluation evaluation = evaluate(effects);
     std::vector<double> z;
@@ -86,7 +86,7 @@ struct Cost {
   }
 };
 
-struct Least {
+struct Minimum {
   double square;
   std::vector<double> u, sigma;
 };
@@ -97,20 +97,20 @@ Eigen::MatrixXd dense(const ceres::CRSMatrix& j) {
                                   j.rows.data(), j.cols.data(), j.values.data());
 }
 
-/// Starts at u; sigma is in the units of the parameters.
-Least minimise(const Cost& given, std::vector<double> u, int iterations) {
+/// Minimizes Σ z² from u. sigma: in the units of the parameters.
+Minimum minimize(const Cost& cost_function, std::vector<double> u, int iterations) {
   constexpr double step = 2e-4;  // chosen: of the scale
   ceres::NumericDiffOptions differences;
   differences.relative_step_size = step;
   auto* cost = new ceres::DynamicNumericDiffCostFunction<Cost, ceres::FORWARD>(
-      new Cost(given), ceres::TAKE_OWNERSHIP, differences);
+      new Cost(cost_function), ceres::TAKE_OWNERSHIP, differences);
   const int count = static_cast<int>(u.size());
   cost->AddParameterBlock(count);
-  cost->SetNumResiduals(static_cast<int>(given.residuals));
+  cost->SetNumResiduals(static_cast<int>(cost_function.residuals));
   ceres::Problem problem;
   problem.AddResidualBlock(cost, nullptr, u.data());
   for (int k = 0; k < count; ++k) {
-    const ScaledParameter& one = given.scaled[static_cast<std::size_t>(k)];
+    const ScaledParameter& one = cost_function.scaled[static_cast<std::size_t>(k)];
     problem.SetParameterLowerBound(u.data(), k, one.to_u(one.bounds.low));
     problem.SetParameterUpperBound(u.data(), k, one.to_u(one.bounds.high) - 2 * step);
   }
@@ -126,28 +126,29 @@ Least minimise(const Cost& given, std::vector<double> u, int iterations) {
   ceres::CRSMatrix sparse;
   std::vector<double> z;
   problem.Evaluate({}, nullptr, &z, nullptr, &sparse);
-  Least least{
+  Minimum minimum{
       2 * summary.final_cost, u,
       standard_errors(dense(sparse), Eigen::VectorXd::Map(z.data(), Eigen::Index(z.size())))};
-  for (std::size_t k = 0; k < u.size(); ++k) least.sigma[k] *= given.scaled[k].scale;
-  return least;
+  for (std::size_t k = 0; k < u.size(); ++k) minimum.sigma[k] *= cost_function.scaled[k].scale;
+  return minimum;
 }
 
-/// Start points: as given, and with the second parameter at shares of its bounds.
-std::vector<std::vector<double>> starts(const std::vector<ScaledParameter>& scaled, bool given,
+/// Start points: the values of the parameters (perturbed if they are neutral), then with the second
+/// parameter at fractions of its bounds.
+std::vector<std::vector<double>> starts(const std::vector<ScaledParameter>& scaled, bool has_values,
                                         const FitOptions& options) {
   constexpr double perturbation = 2e-3;  // of the bounds, off the kink of a law at neutral
   std::vector<std::vector<double>> all;
   std::vector<double> first;
   for (const ScaledParameter& one : scaled) first.push_back(one.to_u(*one.value));
-  if (!given) first[0] += scaled[0].bounds.high > 0 ? perturbation : -perturbation;
+  if (!has_values) first[0] += scaled[0].bounds.high > 0 ? perturbation : -perturbation;
   all.push_back(first);
-  if (given) return all;
+  if (has_values) return all;
   if (scaled.size() > 1 && scaled[1].bounds.low > 0)
-    for (const double share : options.shape_starts) {
+    for (const double fraction : options.shape_starts) {
       const auto& [low, high] = scaled[1].bounds;
       all.push_back(first);
-      all.back()[1] = scaled[1].to_u(low * std::pow(high / low, share));
+      all.back()[1] = scaled[1].to_u(low * std::pow(high / low, fraction));
     }
   return all;
 }
@@ -158,19 +159,20 @@ std::vector<double> values_of(effects::Placed placed) {
   return values;
 }
 
-/// Evaluates several effects. If only one effect differs from the last full evaluation, as for numerical
-/// derivatives, only what it reaches is computed again.
+/// Evaluates several effects. If only one effect differs from the last full evaluation, as in
+/// numerical derivatives, only the parts that it changes are recomputed.
 class IncrementalEvaluation {
  public:
   IncrementalEvaluation(const Evaluator& evaluator, std::span<const std::size_t> episodes)
       : evaluator_(evaluator), episodes_(episodes) {}
 
-  Evaluation operator()(const Effects& now) {
-    std::vector<std::size_t> other;
+  Evaluation operator()(const Effects& effects) {
+    std::vector<std::size_t> changed;
     for (std::size_t k = 0; k < base_.effects.size(); ++k)
-      if (values_of(now[k]) != values_of(base_.effects[k])) other.push_back(k);
-    if (other.size() == 1) return evaluator_.changed(base_, other[0], now[other[0]], episodes_);
-    if (base_.effects.empty() || !other.empty()) base_ = evaluator_.with(now, episodes_);
+      if (values_of(effects[k]) != values_of(base_.effects[k])) changed.push_back(k);
+    if (changed.size() == 1)
+      return evaluator_.changed(base_, changed[0], effects[changed[0]], episodes_);
+    if (base_.effects.empty() || !changed.empty()) base_ = evaluator_.with(effects, episodes_);
     return base_;
   }
 
@@ -182,7 +184,8 @@ class IncrementalEvaluation {
 
 std::size_t count_residuals(const Evaluator& evaluator, std::span<const std::size_t> episodes) {
   std::size_t count = 0;
-  for (const std::size_t e : episodes) count += evaluator.whitened(evaluator.bare(), e).size();
+  for (const std::size_t e : episodes)
+    count += evaluator.whitened(evaluator.nominal_evaluation(), e).size();
   return count;
 }
 
@@ -208,9 +211,9 @@ bool has_size_at_bound(const effects::Placed& placed) {
   return is_at_bound(effects::parameters(neutral)[0], *effects::parameters(effect)[0].value);
 }
 
-Fit fit(const Evaluator& evaluator, const Evaluation& base, const effects::Placed& more,
+Fit fit(const Evaluator& evaluator, const Evaluation& base, const effects::Placed& added,
         std::span<const std::size_t> episodes, const FitOptions& options) {
-  Effects effects{best_initial_guess(evaluator, base, more, episodes)};
+  Effects effects{best_initial_guess(evaluator, base, added, episodes)};
   std::vector<ScaledParameter> scaled = scaled_parameters(effects[0].effect);
   const Cost cost{[&](const Effects& e) { return evaluator.with(base, e[0], episodes); },
                   evaluator,
@@ -218,17 +221,17 @@ Fit fit(const Evaluator& evaluator, const Evaluation& base, const effects::Place
                   effects,
                   scaled,
                   count_residuals(evaluator, episodes)};
-  Least best{};
+  Minimum best{};
   for (const auto& start : starts(scaled, !is_neutral(effects[0]), options))
-    if (Least least = minimise(cost, start, options.iterations);
-        best.u.empty() || least.square < best.square)
-      best = std::move(least);
+    if (Minimum minimum = minimize(cost, start, options.iterations);
+        best.u.empty() || minimum.square < best.square)
+      best = std::move(minimum);
   for (std::size_t k = 0; k < scaled.size(); ++k) *scaled[k].value = scaled[k].to_value(best.u[k]);
   return result_of(effects[0], best.square, best.sigma);
 }
 
-std::vector<Fit> fit_together(const Evaluator& evaluator, std::span<const effects::Placed> all,
-                              std::span<const std::size_t> episodes, const FitOptions& options) {
+std::vector<Fit> fit_jointly(const Evaluator& evaluator, std::span<const effects::Placed> all,
+                             std::span<const std::size_t> episodes, const FitOptions& options) {
   Effects effects(all.begin(), all.end());
   std::vector<ScaledParameter> scaled;
   std::vector<std::size_t> first;
@@ -246,12 +249,13 @@ std::vector<Fit> fit_together(const Evaluator& evaluator, std::span<const effect
                   count_residuals(evaluator, episodes)};
   std::vector<double> u;
   for (const ScaledParameter& one : scaled) u.push_back(one.to_u(*one.value));
-  const Least least = minimise(cost, u, options.iterations);
-  for (std::size_t k = 0; k < scaled.size(); ++k) *scaled[k].value = scaled[k].to_value(least.u[k]);
+  const Minimum minimum = minimize(cost, u, options.iterations);
+  for (std::size_t k = 0; k < scaled.size(); ++k)
+    *scaled[k].value = scaled[k].to_value(minimum.u[k]);
   std::vector<Fit> fits;
   for (std::size_t n = 0; n < effects.size(); ++n)
-    fits.push_back(result_of(effects[n], least.square,
-                             std::span(least.sigma).subspan(first[n], first[n + 1] - first[n])));
+    fits.push_back(result_of(effects[n], minimum.square,
+                             std::span(minimum.sigma).subspan(first[n], first[n + 1] - first[n])));
   return fits;
 }
 

@@ -5,12 +5,13 @@
 
 /// Gap closure: the part of the gap that the answer closes, on held-out recordings.
 ///
-/// `known`: evaluator of the robot with directly detected effects. If a sensor is coarser than its data
-/// sheet, its noise is no gap: only the remaining residual above that noise counts.
+/// `corrected`: evaluator of the robot with directly detected effects. If a sensor is coarser than
+/// its data sheet, its noise is not part of the gap: only the remaining residual above that noise
+/// is.
 namespace sim::diagnosis {
 
 /// An error with the nominal robot and with the answer.
-struct Closed {
+struct ClosedGap {
   std::string channel;  ///< stage and place, or "all"
   std::string unit;
   double before = 0, floor = 0, after = 0;  ///< rms
@@ -21,14 +22,14 @@ struct Closed {
   bool has_gap() const { return before > 1.5 * floor; }
 };
 
-/// By stage, each in its unit.
-std::vector<Closed> closed_by_stage(const Problem& problem, const Evaluator& plain,
-                                    const Evaluator& known, const Evaluation& evaluation);
-/// Over all stages, in units of noise.
-Closed closed_overall(const Problem& problem, const Evaluator& plain, const Evaluator& known,
-                      const Evaluation& evaluation);
+/// Gap closure of each stage, in its unit.
+std::vector<ClosedGap> closed_by_stage(const Problem& problem, const Evaluator& baseline,
+                                       const Evaluator& corrected, const Evaluation& evaluation);
+/// Gap closure over all stages, in units of noise.
+ClosedGap closed_overall(const Problem& problem, const Evaluator& baseline,
+                         const Evaluator& corrected, const Evaluation& evaluation);
 
-/// A few seconds of a stage's residual in a held-out recording around its largest value.
+/// The residual of a stage in a held-out recording, for 2.5 s on both sides of its largest value.
 struct WorstWindow {
   effects::Stage stage;
   std::string on, unit, recording;
@@ -36,8 +37,8 @@ struct WorstWindow {
   std::vector<double> time_s, before, after;
 };
 
-/// For the open stages with the largest shares.
-std::vector<WorstWindow> worst_windows(const Problem& problem, const Evaluator& plain,
+/// The worst windows of the three open stages with the largest shares.
+std::vector<WorstWindow> worst_windows(const Problem& problem, const Evaluator& baseline,
                                        const Evaluation& evaluation,
                                        const std::vector<StageGap>& stages);
 

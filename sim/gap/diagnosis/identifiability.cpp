@@ -6,7 +6,7 @@
 
 namespace sim::diagnosis {
 
-void drop_alternatives_at_bounds(std::vector<IdentifiedEffect>& answer) {
+void remove_alternatives_at_bounds(std::vector<IdentifiedEffect>& answer) {
   for (IdentifiedEffect& n : answer)
     std::erase_if(n.alternatives, [](const IdentifiedEffect& other) { return is_at_bound(other); });
 }
@@ -14,20 +14,20 @@ void drop_alternatives_at_bounds(std::vector<IdentifiedEffect>& answer) {
 void require_determined(Diagnosis& d) {
   if (d.verdict != Verdict::supported) return;
   for (const IdentifiedEffect& n : d.answer) {
-    const auto why = undetermined(n);
-    if (why.empty()) continue;
+    const auto reason = undetermined(n);
+    if (reason.empty()) continue;
     d.verdict = Verdict::not_identifiable;
     d.warnings.push_back(
-        fmt::format("{} on {}: {}; record motions that excite it more", n.type, n.on, why));
+        fmt::format("{} on {}: {}; record motions that excite it more", n.type, n.on, reason));
   }
 }
 
-void require_sampling(const Evaluator& plain, Diagnosis& d) {
+void require_sampling(const Evaluator& baseline, Diagnosis& d) {
   if (d.verdict != Verdict::supported && d.verdict != Verdict::none_of_the_known) return;
-  const auto why = rows_too_far_apart(plain);
-  if (!why) return;
+  const auto reason = rows_too_far_apart(baseline);
+  if (!reason) return;
   d.verdict = Verdict::not_identifiable;
-  d.warnings.push_back(*why);
+  d.warnings.push_back(*reason);
 }
 
 void warn_not_evaluated(const Problem& problem, const Detected& detected, Diagnosis& d) {

@@ -14,27 +14,28 @@ namespace {
 
 using effects::Placed;
 
-constexpr double least_gap = 0.02;  // of the noise; a share of a smaller gap is meaningless; chosen
+// Of the noise; a fraction of a smaller gap is meaningless; chosen.
+constexpr double least_gap = 0.02;
 
-/// Scores of a candidate at the open stages and at those that it makes worse. Other stages do not count, because
-/// fitting the noise of a stage without a gap is no gain.
+/// Scores of a candidate at the open stages and at the stages that it makes worse. Other stages are
+/// ignored because a fit of the noise of a stage without a gap is not a gain.
 struct Score {
   std::vector<ScoreBlock> before, after;  ///< at these stages
-  std::vector<ScoreBlock> gap;            ///< before, at the open ones
+  std::vector<ScoreBlock> gap;            ///< before, at the open stages
 };
 
 Score score(const Evaluator& evaluator, const Evaluation& base, const Evaluation& with,
             const RankingOptions& options) {
-  const bool any = std::ranges::any_of(options.stages, &StageGap::open);
-  const auto was = by_stage(evaluator, base, options.held_out);
-  const auto is = by_stage(evaluator, with, options.held_out);
+  const bool has_open_stage = std::ranges::any_of(options.stages, &StageGap::open);
+  const auto before = by_stage(evaluator, base, options.held_out);
+  const auto after = by_stage(evaluator, with, options.held_out);
   const auto open = [&](const residuals::Residual& r) {
     const auto stage = find_stage(options.stages, r.stage, r.on);
-    return !any || (stage != options.stages.end() && stage->open);
+    return !has_open_stage || (stage != options.stages.end() && stage->open);
   };
   const auto counts = [&](const residuals::Residual& r) {
-    return open(r) || find_stage(is, r.stage, r.on)->whole.square >
-                          find_stage(was, r.stage, r.on)->whole.square;
+    return open(r) || find_stage(after, r.stage, r.on)->total.square >
+                          find_stage(before, r.stage, r.on)->total.square;
   };
   return {evaluator.blocks(base, options.held_out, counts),
           evaluator.blocks(with, options.held_out, counts),
@@ -47,16 +48,16 @@ void evaluate(Ranked& r, const Evaluator& evaluator, const Evaluation& base,
   r.blocks = evaluator.blocks(r.on_held_out, options.held_out);
   const Score s = score(evaluator, base, r.on_held_out, options);
   const auto gain = [&](std::span<const std::size_t> blocks) {
-    double was = 0, is = 0, gap = 0, windows = 0;
+    double before = 0, after = 0, gap = 0, windows = 0;
     for (const std::size_t k : blocks) {
-      was += s.before[k].square, is += s.after[k].square, gap += s.gap[k].square;
+      before += s.before[k].square, after += s.after[k].square, gap += s.gap[k].square;
       windows += static_cast<double>(s.gap[k].windows);
     }
-    return (was - is) / std::max(gap - windows, least_gap * windows);
+    return (before - after) / std::max(gap - windows, least_gap * windows);
   };
-  const auto every = each(s.before.size());
-  r.gain = gain(every);
-  const auto drawn = bootstrap(every.size(), options.draws, options.seed,
+  const auto all_blocks = each(s.before.size());
+  r.gain = gain(all_blocks);
+  const auto drawn = bootstrap(all_blocks.size(), options.draws, options.seed,
                                [&](const auto& blocks) { return gain(blocks); });
   r.gain_interval = middle(drawn);
   if (std::ranges::any_of(options.stages, &StageGap::open))
@@ -65,32 +66,32 @@ void evaluate(Ranked& r, const Evaluator& evaluator, const Evaluation& base,
               static_cast<double>(drawn.size() + 1);
 }
 
-/// Whether the effect is a correction of a constant of the model.
+/// Whether the effect corrects a constant of the model.
 bool is_correction(const Placed& placed) {
   effects::AnyEffect effect = placed.effect;
   return std::string_view(effects::parameters(effect)[0].name) == "relative";
 }
 
-/// Interval of the difference in Σ z² between the other and the best, over the same blocks.
-Interval worse_by(const Ranked& other, const Ranked& best, const RankingOptions& options) {
+/// Interval of Σ z² of `other` minus Σ z² of `best`, over the same blocks.
+Interval paired_difference(const Ranked& other, const Ranked& best, const RankingOptions& options) {
   return middle(bootstrap(best.blocks.size(), options.draws, options.seed, [&](const auto& drawn) {
-    double more = 0;
-    for (const std::size_t k : drawn) more += other.blocks[k].square - best.blocks[k].square;
-    return more;
+    double difference = 0;
+    for (const std::size_t k : drawn) difference += other.blocks[k].square - best.blocks[k].square;
+    return difference;
   }));
 }
 
 bool is_within_bounds(const Ranked& r) { return !has_size_at_bound(r.fit.placed); }
 
-/// Orders the effects that are as good as the first: fewer parameters first, then corrections of a constant, then
-/// the order of the library.
+/// Orders the effects that are equally good as the first: fewer parameters first, then corrections
+/// of a constant, then the order of the library.
 void prefer_simple(std::vector<Ranked>& ranked, const RankingOptions& options) {
-  constexpr double as_good = 1e-3, same = 1e-4;  // of the gap; chosen
+  constexpr double similar_gain = 1e-3, equal_gain = 1e-4;  // differences of gains; chosen
   if (ranked.empty()) return;
   const Ranked best = ranked[0];
   const auto end = std::stable_partition(ranked.begin(), ranked.end(), [&](const Ranked& r) {
-    return r.relieves() && is_within_bounds(r) && r.gain >= best.gain - as_good &&
-           (r.gain >= best.gain - same || worse_by(r, best, options).low <= 0);
+    return r.relieves() && is_within_bounds(r) && r.gain >= best.gain - similar_gain &&
+           (r.gain >= best.gain - equal_gain || paired_difference(r, best, options).low <= 0);
   });
   std::stable_sort(ranked.begin(), end, [](const Ranked& a, const Ranked& b) {
     const auto complexity = [](const Ranked& r) {
@@ -116,7 +117,8 @@ std::vector<Ranked> rank(const Evaluator& evaluator, const Evaluation& base,
     if (options.progress) options.progress(++done, chosen.size());
   });
   std::ranges::stable_sort(ranked, std::greater(), &Ranked::gain);
-  // A size at its bound is no estimate: it reduces residuals by scaling the whole equation down.
+  // A size at its bound is not an estimate: it reduces residuals by scaling the whole equation
+  // down.
   std::ranges::stable_partition(ranked, is_within_bounds);
   std::ranges::stable_partition(ranked, &Ranked::relieves);
   prefer_simple(ranked, options);
@@ -129,7 +131,7 @@ std::vector<std::size_t> confusable(const std::vector<Ranked>& ranked,
   for (std::size_t n = 1; n < ranked.size(); ++n) {
     if (!ranked[n].relieves()) continue;
     if (std::min(1.0, ranked[0].gain) - std::min(1.0, ranked[n].gain) < practical ||
-        worse_by(ranked[n], ranked[0], options).low <= 0)
+        paired_difference(ranked[n], ranked[0], options).low <= 0)
       same.push_back(n);
   }
   return same;

@@ -13,11 +13,13 @@ std::vector<Indistinguishable> indistinguishable_effects(const Evaluator& evalua
   std::vector<Indistinguishable> found;
   for (const Sensitivity& hidden : all)
     for (const Sensitivity& other : all) {
-      if (&hidden == &other || hidden.first.norm() < shown || other.span.cols() == 0) continue;
-      const Eigen::VectorXd left =
+      if (&hidden == &other || hidden.first.norm() < visible_change || other.span.cols() == 0)
+        continue;
+      const Eigen::VectorXd remaining =
           hidden.first - other.span * (other.span.transpose() * hidden.first);
-      if (left.norm() <= share * hidden.first.norm())
-        found.push_back({hidden.perturbed, {other.perturbed}, hidden.first.norm(), left.norm()});
+      if (remaining.norm() <= share * hidden.first.norm())
+        found.push_back(
+            {hidden.perturbed, {other.perturbed}, hidden.first.norm(), remaining.norm()});
     }
   std::ranges::stable_sort(found, {},
                            [](const Indistinguishable& t) { return t.remaining / t.magnitude; });

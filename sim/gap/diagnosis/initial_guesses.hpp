@@ -4,22 +4,23 @@
 
 #include "sim/gap/diagnosis/evaluation.hpp"
 
-/// Initial guesses of a fit, for laws whose gradient at the neutral value does not lead to the optimum.
+/// Initial guesses of a fit. They are needed for laws whose gradient at the neutral value does not
+/// lead to the optimum.
 namespace sim::diagnosis {
 
-/// Whether all its parameters have their neutral values.
+/// Whether all parameters of an effect have their neutral values.
 bool is_neutral(const effects::Placed& placed);
 
-/// Initial guesses of an effect: stops at the angles where the joint reverses, bones of several
+/// Returns initial guesses of an effect: stops at the extreme angles of the joint, bones of several
 /// stiffnesses. Empty for most effects.
 std::vector<effects::Placed> initial_guesses(const Evaluator& evaluator,
                                              const effects::Placed& neutral,
                                              std::span<const std::size_t> episodes);
 
-/// The initial guess, or share of the first parameter's bounds, with the smallest Σ z² in addition to
-/// `base`. The effect as given if it is not neutral, or if no guess is better.
+/// Returns the initial guess, or the fraction of the first parameter's bounds, with the smallest Σ
+/// z² in addition to `base`. Returns `effect` if it is not neutral, or if no guess is better.
 effects::Placed best_initial_guess(const Evaluator& evaluator, const Evaluation& base,
-                                   const effects::Placed& more,
+                                   const effects::Placed& effect,
                                    std::span<const std::size_t> episodes);
 
 }  // namespace sim::diagnosis

@@ -12,21 +12,22 @@ namespace {
 
 using effects::Placed;
 
-// Laws are not linear, so scaled signatures are compared with tolerances; all chosen.
-constexpr double least_share = 0.05;  // of the largest excess; less may have another cause
-constexpr double short_of = 10;       // factor by which an open stage may be underestimated
-constexpr double keeps_closed = 10;   // excess that is allowed at a closed stage
+// Tolerances of scaled signatures, because laws are not linear; chosen.
+constexpr double least_share = 0.05;        // of the largest excess; less may have another cause
+constexpr double max_underestimation = 10;  // factor, of an open stage
+constexpr double max_closed_excess = 10;    // of a stage that is not open
 
 /// Mean Δz² by stage.
 std::vector<double> signature(const Evaluator& evaluator, const Placed& perturbed,
                               std::size_t episode) {
   const std::size_t only[] = {episode};
-  const Evaluation with = evaluator.with(evaluator.bare(), perturbed, only);
-  const auto before = evaluator.whitened(evaluator.bare(), episode),
+  const Evaluation with = evaluator.with(evaluator.nominal_evaluation(), perturbed, only);
+  const auto before = evaluator.whitened(evaluator.nominal_evaluation(), episode),
              after = evaluator.whitened(with, episode);
   std::vector<double> means;
   std::size_t at = 0;
-  for (const residuals::Residual& r : evaluator.bare().of_episode[episode].residuals) {
+  for (const residuals::Residual& r :
+       evaluator.nominal_evaluation().of_episode[episode].residuals) {
     double square = 0, windows = 0;
     for (std::size_t k = 0; k < r.value.size(); ++k, ++at)
       if (!std::isnan(before[at])) square += std::pow(after[at] - before[at], 2), ++windows;
@@ -39,9 +40,10 @@ std::vector<double> signature(const Evaluator& evaluator, const Placed& perturbe
 std::vector<StageGap> gap_of(const Evaluator& evaluator, std::size_t episode,
                              const Problem& problem) {
   const std::size_t only[] = {episode};
-  const auto gaps = localize(evaluator, evaluator.bare(), only, problem.localization_options());
+  const auto gaps =
+      localize(evaluator, evaluator.nominal_evaluation(), only, problem.localization_options());
   std::vector<StageGap> ordered;
-  for (const residuals::Residual& r : evaluator.bare().of_episode[episode].residuals)
+  for (const residuals::Residual& r : evaluator.nominal_evaluation().of_episode[episode].residuals)
     ordered.push_back(*find_stage(gaps, r.stage, r.on));
   return ordered;
 }
@@ -49,15 +51,15 @@ std::vector<StageGap> gap_of(const Evaluator& evaluator, std::size_t episode,
 /// Whether a scaled signature explains the gap.
 bool explains(const std::vector<StageGap>& gap, const std::vector<double>& signature) {
   const auto largest = std::ranges::max_element(gap, {}, &StageGap::share);
-  const double there = signature[std::size_t(largest - gap.begin())];
-  if (!(there > 0) || !largest->open) return false;
-  const double factor = largest->excess / there;
+  const double largest_signature = signature[std::size_t(largest - gap.begin())];
+  if (!(largest_signature > 0) || !largest->open) return false;
+  const double factor = largest->excess / largest_signature;
   for (std::size_t r = 0; r < gap.size(); ++r) {
     const double expected = factor * signature[r];
     if (gap[r].open && gap[r].excess > least_share * largest->excess &&
-        expected * short_of < gap[r].excess)
+        expected * max_underestimation < gap[r].excess)
       return false;
-    if (gap[r].judged && !gap[r].open && expected > keeps_closed) return false;
+    if (gap[r].judged && !gap[r].open && expected > max_closed_excess) return false;
   }
   return true;
 }
@@ -65,16 +67,17 @@ bool explains(const std::vector<StageGap>& gap, const std::vector<double>& signa
 }  // namespace
 
 std::vector<Part> isolate(const Problem& problem, const Evaluator& evaluator) {
-  const std::size_t episode = largest_residuals_in(evaluator, evaluator.bare(), problem.sets.train);
+  const std::size_t episode =
+      largest_residuals_in(evaluator, evaluator.nominal_evaluation(), problem.sets.train);
   const auto gap = gap_of(evaluator, episode, problem);
   const auto all = candidates(evaluator, problem.options.withhold);
   std::vector<char> possible(all.size());
   in_parallel(all.size(), problem.options.threads, [&](std::size_t k) {
     const std::size_t only[] = {episode};
-    auto ways = perturbations(all[k]);
-    const auto more = initial_guesses(evaluator, all[k], only);
-    ways.insert(ways.end(), more.begin(), more.end());
-    possible[k] = std::ranges::any_of(ways, [&](const Placed& perturbed) {
+    auto variants = perturbations(all[k]);
+    const auto guesses = initial_guesses(evaluator, all[k], only);
+    variants.insert(variants.end(), guesses.begin(), guesses.end());
+    possible[k] = std::ranges::any_of(variants, [&](const Placed& perturbed) {
       return explains(gap, signature(evaluator, perturbed, episode));
     });
   });

@@ -9,8 +9,8 @@ namespace sim::diagnosis {
 namespace {
 
 /// Windows of one stage over all recordings.
-struct Collected {
-  const residuals::Residual* what;
+struct StageWindows {
+  const residuals::Residual* residual;
   double floor_square = 0;  ///< Σ σ² over its windows
   double driver_square = 0, recordings = 0;
   std::vector<ScoreBlock> blocks = {};
@@ -22,36 +22,36 @@ double excess_of(const ScoreBlock& b) {
 
 Interval interval_of(const std::vector<ScoreBlock>& blocks, const LocalizationOptions& options) {
   return middle(bootstrap(blocks.size(), options.draws, options.seed, [&](const auto& drawn) {
-    ScoreBlock whole;
+    ScoreBlock total;
     for (const std::size_t k : drawn)
-      whole.square += blocks[k].square, whole.windows += blocks[k].windows;
-    return excess_of(whole);
+      total.square += blocks[k].square, total.windows += blocks[k].windows;
+    return excess_of(total);
   }));
 }
 
-/// Adds z of one stage in one recording.
-void collect(std::span<const double> z, double floor, double block_s, Collected& into) {
+/// Adds the windows of one stage in one recording.
+void collect(std::span<const double> z, double floor, double block_s, StageWindows& stage) {
   const auto windows_a_block =
       static_cast<std::size_t>(std::max(1.0, std::round(block_s / residuals::Windows{}.stride_s)));
   for (std::size_t k = 0; k < z.size(); ++k) {
-    if (k % windows_a_block == 0) into.blocks.emplace_back();
+    if (k % windows_a_block == 0) stage.blocks.emplace_back();
     if (std::isnan(z[k])) continue;
-    into.blocks.back().square += z[k] * z[k], ++into.blocks.back().windows;
-    into.floor_square += floor * floor;
+    stage.blocks.back().square += z[k] * z[k], ++stage.blocks.back().windows;
+    stage.floor_square += floor * floor;
   }
 }
 
-std::vector<Collected> collect(const Evaluator& evaluator, const Evaluation& evaluation,
-                               std::span<const std::size_t> episodes,
-                               const LocalizationOptions& options) {
-  std::vector<Collected> all;
+std::vector<StageWindows> collect(const Evaluator& evaluator, const Evaluation& evaluation,
+                                  std::span<const std::size_t> episodes,
+                                  const LocalizationOptions& options) {
+  std::vector<StageWindows> all;
   for (const std::size_t e : episodes) {
     std::size_t first = 0;
     const auto z = evaluator.whitened(evaluation, e);
-    const auto& residuals = evaluator.bare().of_episode[e].residuals;
+    const auto& residuals = evaluator.nominal_evaluation().of_episode[e].residuals;
     for (std::size_t r = 0; r < residuals.size(); first += residuals[r++].value.size()) {
-      auto place = std::ranges::find_if(all, [&](const Collected& c) {
-        return same_stage(*c.what, residuals[r].stage, residuals[r].on);
+      auto place = std::ranges::find_if(all, [&](const StageWindows& c) {
+        return same_stage(*c.residual, residuals[r].stage, residuals[r].on);
       });
       if (place == all.end()) place = all.insert(place, {&residuals[r]});
       place->driver_square += residuals[r].driven_by * residuals[r].driven_by, ++place->recordings;
@@ -62,20 +62,21 @@ std::vector<Collected> collect(const Evaluator& evaluator, const Evaluation& eva
   return all;
 }
 
-StageGap gap_of(const Collected& collected, const LocalizationOptions& options) {
-  const ScoreBlock whole = sum(collected.blocks);
-  StageGap gap{collected.what->stage, collected.what->on, collected.what->unit};
-  gap.windows = whole.windows;
+StageGap gap_of(const StageWindows& collected, const LocalizationOptions& options) {
+  const ScoreBlock total = sum(collected.blocks);
+  StageGap gap{collected.residual->stage, collected.residual->on, collected.residual->unit};
+  gap.windows = total.windows;
   if (gap.windows > 0)
     gap.floor = std::sqrt(collected.floor_square / static_cast<double>(gap.windows));
   gap.driven_by = std::sqrt(collected.driver_square / collected.recordings);
-  gap.excess = excess_of(whole);
+  gap.excess = excess_of(total);
   gap.rms = gap.floor * std::sqrt(std::max(0.0, gap.excess + 1));
   gap.excess_interval = interval_of(collected.blocks, options);
   gap.judged = gap.windows >= options.least_windows;
-  constexpr std::size_t enough = 10;
+  constexpr std::size_t fewest_windows = 10;  // windows of a block; chosen
   for (const ScoreBlock& block : collected.blocks)
-    if (block.windows >= enough) gap.worst_excess = std::max(gap.worst_excess, excess_of(block));
+    if (block.windows >= fewest_windows)
+      gap.worst_excess = std::max(gap.worst_excess, excess_of(block));
   gap.open = gap.judged && (gap.excess_interval.low > options.practical_excess ||
                             gap.worst_excess > options.block_excess);
   return gap;
@@ -86,33 +87,35 @@ StageGap gap_of(const Collected& collected, const LocalizationOptions& options) 
 std::vector<StageScore> by_stage(const Evaluator& evaluator, const Evaluation& evaluation,
                                  std::span<const std::size_t> episodes) {
   std::vector<StageScore> all;
-  for (const Collected& c : collect(evaluator, evaluation, episodes, {}))
-    all.push_back({c.what->stage, c.what->on, sum(c.blocks)});
+  for (const StageWindows& c : collect(evaluator, evaluation, episodes, {}))
+    all.push_back({c.residual->stage, c.residual->on, sum(c.blocks)});
   return all;
 }
 
 double relief(const Evaluator& evaluator, const Evaluation& before, const Evaluation& after,
               std::span<const std::size_t> episodes, std::span<const StageGap> stages) {
-  const auto was = by_stage(evaluator, before, episodes), is = by_stage(evaluator, after, episodes);
-  double most = 0;
-  for (std::size_t k = 0; k < was.size(); ++k)
-    if (const auto stage = find_stage(stages, was[k].stage, was[k].on);
+  const auto scores_before = by_stage(evaluator, before, episodes),
+             scores_after = by_stage(evaluator, after, episodes);
+  double largest = 0;
+  for (std::size_t k = 0; k < scores_before.size(); ++k)
+    if (const auto stage = find_stage(stages, scores_before[k].stage, scores_before[k].on);
         stage != stages.end() && stage->open)
-      most = std::max(most, 1 - excess_of(is[k].whole) / excess_of(was[k].whole));
-  return most;
+      largest = std::max(largest,
+                         1 - excess_of(scores_after[k].total) / excess_of(scores_before[k].total));
+  return largest;
 }
 
 std::vector<StageGap> localize(const Evaluator& evaluator, const Evaluation& evaluation,
                                std::span<const std::size_t> episodes,
                                const LocalizationOptions& options) {
   std::vector<StageGap> gaps;
-  for (const Collected& collected : collect(evaluator, evaluation, episodes, options))
+  for (const StageWindows& collected : collect(evaluator, evaluation, episodes, options))
     gaps.push_back(gap_of(collected, options));
-  double whole = 0;
+  double total = 0;
   for (const StageGap& gap : gaps)
-    if (gap.open) whole += gap.excess;
+    if (gap.open) total += gap.excess;
   for (StageGap& gap : gaps)
-    if (gap.open) gap.share = gap.excess / whole;
+    if (gap.open) gap.share = gap.excess / total;
   std::ranges::stable_sort(gaps, std::greater(), &StageGap::share);
   return gaps;
 }
@@ -121,7 +124,7 @@ std::vector<StageGap> localize(const erp::Robot& robot,
                                std::span<const residuals::Episode> episodes,
                                const LocalizationOptions& options) {
   const Evaluator evaluator(robot, {episodes.begin(), episodes.end()}, options.seed);
-  return localize(evaluator, evaluator.bare(), each(episodes.size()), options);
+  return localize(evaluator, evaluator.nominal_evaluation(), each(episodes.size()), options);
 }
 
 std::vector<std::string> not_evaluated(const erp::Robot& robot,

@@ -10,7 +10,7 @@
 
 /// Localization: the stages whose residual exceeds the noise of their sensors.
 ///
-///   excess = ⟨(r/σ)²⟩ − 1          r: residual, σ: its noise floor; 0: noise alone
+///   excess = ⟨(r/σ)²⟩ − 1          r: residual, σ: its noise floor; 0: only noise
 ///   share  = excess / Σ excess      over the open stages; 0 for the others
 ///
 /// Intervals come from a block bootstrap over seconds of the recordings.
@@ -24,11 +24,11 @@ struct StageGap {
   double driven_by = 0;       ///< rms of the input of the stage, in that unit
   double excess = 0;
   Interval excess_interval;  ///< 95 %
-  double worst_excess = 0;   ///< of a block
+  double worst_excess = 0;   ///< largest excess of a block
   std::size_t windows = 0;
-  bool judged = false;  ///< evaluated: it has enough windows
+  bool judged = false;  ///< it has enough windows for an evaluation
   double share = 0;
-  /// Evaluated and above its noise floor: the interval's lower end exceeds practical_excess, or one
+  /// Judged and above its noise floor: the lower end of the interval exceeds practical_excess, or a
   /// block exceeds block_excess.
   bool open = false;
 };
@@ -42,7 +42,7 @@ struct LocalizationOptions {
   std::uint64_t seed = 1;
 };
 
-/// Whether an item has this `stage` and `on`.
+/// Whether stage and place of an item are `stage` and `on`.
 template <class Item>
 bool same_stage(const Item& item, effects::Stage stage, const std::string& on) {
   return item.stage == stage && item.on == on;
@@ -52,30 +52,30 @@ auto find_stage(Items& items, effects::Stage stage, const std::string& on) {
   return std::ranges::find_if(items, [&](const auto& i) { return same_stage(i, stage, on); });
 }
 
-/// Σ z² and number of windows of one stage over some recordings.
+/// Σ z² and number of windows of one stage over recordings.
 struct StageScore {
   effects::Stage stage;
   std::string on;
-  ScoreBlock whole;
+  ScoreBlock total;
 };
 std::vector<StageScore> by_stage(const Evaluator& evaluator, const Evaluation& evaluation,
                                  std::span<const std::size_t> episodes);
 
-/// Largest relative reduction of the excess of an open stage from `before` to `after`. 1: one of them is
-/// reduced to its noise floor.
+/// Returns the largest relative reduction of the excess of an open stage from `before` to `after`.
+/// 1: a stage is reduced to its noise floor.
 double relief(const Evaluator& evaluator, const Evaluation& before, const Evaluation& after,
               std::span<const std::size_t> episodes, std::span<const StageGap> stages);
 
-/// The gap of each stage with the effects of `evaluation`, largest share first.
+/// Returns the gap of each stage with the effects of `evaluation`, the largest share first.
 std::vector<StageGap> localize(const Evaluator& evaluator, const Evaluation& evaluation,
                                std::span<const std::size_t> episodes,
                                const LocalizationOptions& options = {});
-/// The same for the nominal robot on all recordings. Throws as Evaluator.
+/// For the nominal robot on all recordings. Throws the exceptions of Evaluator.
 std::vector<StageGap> localize(const erp::Robot& robot,
                                std::span<const residuals::Episode> episodes,
                                const LocalizationOptions& options = {});
 
-/// Stages of the robot that the recordings do not allow to evaluate, as text: "gearbox of flexor".
+/// Names of the stages that cannot be evaluated in the recordings, such as "gearbox of flexor".
 std::vector<std::string> not_evaluated(const erp::Robot& robot,
                                        const std::vector<StageGap>& stages);
 

@@ -2,19 +2,19 @@
 
 namespace sim::diagnosis {
 
-RankingOptions Problem::ranking_options(double from, double to) const {
-  RankingOptions which{.train = sets.train,
-                       .held_out = sets.held_out,
-                       .withhold = options.withhold,
-                       .threads = options.threads,
-                       .pool = options.pool,
-                       .seed = options.seed};
-  if (to > from)
-    which.progress = [this, from, to](std::size_t done, std::size_t of) {
+RankingOptions Problem::ranking_options(double begin, double end) const {
+  RankingOptions ranking{.train = sets.train,
+                         .held_out = sets.held_out,
+                         .withhold = options.withhold,
+                         .threads = options.threads,
+                         .pool = options.pool,
+                         .seed = options.seed};
+  if (end > begin)
+    ranking.progress = [this, begin, end](std::size_t done, std::size_t of) {
       report_progress("effects",
-                      from + (to - from) * static_cast<double>(done) / static_cast<double>(of));
+                      begin + (end - begin) * static_cast<double>(done) / static_cast<double>(of));
     };
-  return which;
+  return ranking;
 }
 
 }  // namespace sim::diagnosis

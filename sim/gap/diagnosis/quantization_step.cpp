@@ -9,19 +9,20 @@
 namespace sim::diagnosis {
 namespace {
 
-constexpr double coarse = 1.8;     // times the data sheet's step; chosen
-constexpr std::size_t fewest = 8;  // different readings; chosen
+constexpr double coarse_ratio = 1.8;  // step / step of the data sheet; chosen
+constexpr std::size_t fewest = 8;     // different readings; chosen
 
 void add(std::vector<effects::Placed>& all, const char* type, const std::string& on, double step,
          double finest) {
-  if (!(step > coarse * finest)) return;
+  if (!(step > coarse_ratio * finest)) return;
   effects::Placed placed{on, *effects::neutral(type)};
   const effects::Parameter parameter = effects::parameters(placed.effect)[0];
   *parameter.value = std::min(step, parameter.bounds.high);
   all.push_back(placed);
 }
 
-/// Coherence of the values with step s: 1 if all are multiples of s plus a common offset.
+/// Coherence of values v with step s, |Σ e^(2πi v/s)|/n. It is 1 if all are multiples of s plus a
+/// common offset.
 double coherence(const std::vector<double>& values, double s) {
   double c = 0, i = 0;
   for (const double v : values) {
@@ -31,11 +32,11 @@ double coherence(const std::vector<double>& values, double s) {
   return std::hypot(c, i) / static_cast<double>(values.size());
 }
 
-/// Coherence that n random readings over a length L seldom reach. They reach r with probability exp(−n r²) for one
-/// step; the range s₀ … s₁ contains (s₁ − s₀) L/s² independent steps.
-double significant_coherence(std::size_t n, double length, double steps_wide, double s) {
-  constexpr double chance = 2e-3;  // chosen: eight readings in perfect step are significant
-  const double independent_steps = std::max(1.0, steps_wide * length / (s * s));
+/// Coherence that n random readings over a length L rarely reach. For one step they reach r with
+/// probability exp(−n r²). The range s₀ … s₁ contains (s₁ − s₀) L/s² independent steps.
+double significant_coherence(std::size_t n, double length, double range, double s) {
+  constexpr double chance = 2e-3;  // chosen: eight readings with one exact step are significant
+  const double independent_steps = std::max(1.0, range * length / (s * s));
   return std::sqrt(std::log(independent_steps / chance) / static_cast<double>(n));
 }
 
@@ -51,47 +52,50 @@ std::vector<double> distinct(std::span<const residuals::Signal* const> readings,
   return values;
 }
 
-/// Readings in a short range, and the coherence that is significant for them.
-struct Stretch {
+/// Readings in a short interval, and the coherence that is significant for them.
+struct ShortInterval {
   std::vector<double> values;
   double significant;
 };
 
-/// Range of the search for the step, in units of the finest.
+/// Range of the search for the step, in units of the finest step.
 struct Steps {
   double guess;
   double narrowest() const { return guess - 1; }
   double widest() const { return guess + 1.5; }
 };
 
-/// Stretches of `length` steps from all over the range. They are short because the phase error of a slightly wrong step
-/// grows with the distance. Several are needed because readings of a uniform motion are equally spaced too, but with
-/// another spacing in each stretch.
-std::vector<Stretch> stretches(const std::vector<double>& values, Steps steps, double length) {
-  constexpr std::size_t most = 5;  // chosen
-  constexpr double least = 0.7;  // of 1; true steps exceed it despite outliers and rounding; chosen
-  std::vector<Stretch> all, some;
-  for (auto from = values.begin(); from != values.end();) {
-    const auto to = std::upper_bound(from, values.end(), *from + length * steps.guess);
-    if (std::size_t(to - from) >= fewest)
-      all.push_back({{from, to},
-                     std::max(least, significant_coherence(
-                                         std::size_t(to - from), *(to - 1) - *from,
-                                         steps.widest() - steps.narrowest(), steps.guess))});
-    from = to;
+/// Intervals of `length` steps, spread over the range of the readings. They are short because the
+/// phase error of a slightly wrong step grows with the distance. Several are needed because
+/// readings of a uniform motion are equally spaced too, but with another spacing in each interval.
+std::vector<ShortInterval> short_intervals(const std::vector<double>& values, Steps steps,
+                                           double length) {
+  constexpr std::size_t max_count = 5;  // chosen
+  constexpr double least_coherence =
+      0.7;  // true steps exceed it despite outliers and rounding; chosen
+  std::vector<ShortInterval> all, selected;
+  for (auto begin = values.begin(); begin != values.end();) {
+    const auto end = std::upper_bound(begin, values.end(), *begin + length * steps.guess);
+    if (std::size_t(end - begin) >= fewest)
+      all.push_back(
+          {{begin, end},
+           std::max(least_coherence,
+                    significant_coherence(std::size_t(end - begin), *(end - 1) - *begin,
+                                          steps.widest() - steps.narrowest(), steps.guess))});
+    begin = end;
   }
-  const std::size_t count = std::min(most, all.size());
-  for (std::size_t k = 0; k < count; ++k) some.push_back(all[k * all.size() / count]);
-  return some;
+  const std::size_t count = std::min(max_count, all.size());
+  for (std::size_t k = 0; k < count; ++k) selected.push_back(all[k * all.size() / count]);
+  return selected;
 }
 
-/// Sum over stretches, each with its own offset. 0 if one of them is not coherent.
-double coherence(const std::vector<Stretch>& all, double s) {
+/// Sum over the intervals, each with a separate offset. 0 if one of them is not coherent.
+double coherence(const std::vector<ShortInterval>& all, double s) {
   double sum = 0;
-  for (const Stretch& one : all) {
-    const double here = coherence(one.values, s);
-    if (here <= one.significant) return 0;
-    sum += here;
+  for (const ShortInterval& one : all) {
+    const double one_coherence = coherence(one.values, s);
+    if (one_coherence <= one.significant) return 0;
+    sum += one_coherence;
   }
   return sum;
 }
@@ -107,10 +111,12 @@ double quantization_step(std::span<const residuals::Signal* const> readings, dou
   // The smallest 5 % may be outliers from interpolated samples.
   const Steps steps{gaps[gaps.size() / 20]};
   if (steps.guess < 2) return steps.guess * finest;
-  constexpr double length = 500, of_a_step = 0.1;
-  const std::vector<Stretch> all = stretches(values, steps, length);
+  constexpr double length = 500;             // of an interval, in steps; chosen
+  constexpr double search_resolution = 0.1;  // phase error at the end of an interval; chosen
+  const std::vector<ShortInterval> all = short_intervals(values, steps, length);
   double best = 0, step = finest;
-  for (double s = steps.narrowest(); s < steps.widest(); s += of_a_step / length * steps.guess)
+  for (double s = steps.narrowest(); s < steps.widest();
+       s += search_resolution / length * steps.guess)
     if (const double fits = coherence(all, s); fits > best) best = fits, step = s * finest;
   return step;
 }

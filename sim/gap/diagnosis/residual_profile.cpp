@@ -7,8 +7,8 @@
 namespace sim::diagnosis {
 namespace {
 
-constexpr std::size_t bins = 16;
-constexpr std::size_t fewest = 5;  // windows per bin
+constexpr std::size_t bins = 16;   // chosen
+constexpr std::size_t fewest = 5;  // windows per bin; chosen
 constexpr const char* time_name = "time";
 
 /// Residuals of one stage with their variables, over several recordings.
@@ -22,23 +22,24 @@ Sample sample(const Evaluator& evaluator, const Evaluation& evaluation, effects:
   Sample all;
   for (const std::size_t e : episodes) {
     const auto z = evaluator.whitened(evaluation, e);
-    auto own = variables(evaluator, e, stage, on);
+    auto recorded_variables = variables(evaluator, e, stage, on);
     if (all.variables.empty())
-      for (const Variable& v : own) all.variables.push_back({v.name, v.unit, {}});
+      for (const Variable& v : recorded_variables) all.variables.push_back({v.name, v.unit, {}});
     std::size_t first = 0;
-    const auto& bare = evaluator.bare().of_episode[e].residuals;
+    const auto& nominal_evaluation = evaluator.nominal_evaluation().of_episode[e].residuals;
     const auto& changed = evaluation.of_episode[e].residuals;
-    for (std::size_t n = 0; n < bare.size(); ++n) {
-      const residuals::Residual& r = bare[n];
+    for (std::size_t n = 0; n < nominal_evaluation.size(); ++n) {
+      const residuals::Residual& r = nominal_evaluation[n];
       if (r.stage == stage && r.on == on)
         for (std::size_t k = 0; k < r.value.size(); ++k) {
           const bool available = n < changed.size() && !std::isnan(changed[n].value[k]);
-          const residuals::Residual& used = available ? changed[n] : r;
-          const bool within_band = residuals::banded(used, k) && used.value[k] == 0;
+          const residuals::Residual& available_residual = available ? changed[n] : r;
+          const bool within_band =
+              residuals::banded(available_residual, k) && available_residual.value[k] == 0;
           if (std::isnan(z[first + k]) || within_band) continue;
           all.residual.push_back(z[first + k]);
-          for (std::size_t v = 0; v < own.size(); ++v)
-            all.variables[v].value.push_back(own[v].value[k]);
+          for (std::size_t v = 0; v < recorded_variables.size(); ++v)
+            all.variables[v].value.push_back(recorded_variables[v].value[k]);
         }
       first += r.value.size();
     }
@@ -79,17 +80,17 @@ Map map_of(const std::vector<double>& x, const std::vector<double>& r) {
 /// Σ (r − m)²
 double remaining_residual(const Map& map, const std::vector<double>& x,
                           const std::vector<double>& r) {
-  double left = 0;
+  double remaining = 0;
   for (std::size_t k = 0; k < x.size(); ++k)
-    left += std::pow(r[k] - (std::isnan(x[k]) ? 0 : map.mean(map.bin(x[k]))), 2);
-  return left;
+    remaining += std::pow(r[k] - (std::isnan(x[k]) ? 0 : map.mean(map.bin(x[k]))), 2);
+  return remaining;
 }
 
 /// Σ (r − m)² with a constant m.
 double remaining_residual(double mean, const std::vector<double>& r) {
-  double left = 0;
-  for (const double one : r) left += std::pow(one - mean, 2);
-  return left;
+  double remaining = 0;
+  for (const double one : r) remaining += std::pow(one - mean, 2);
+  return remaining;
 }
 
 double mean_of(const std::vector<double>& r) {
@@ -98,18 +99,19 @@ double mean_of(const std::vector<double>& r) {
   return r.empty() ? 0 : sum / static_cast<double>(r.size());
 }
 
-/// Explained part of the residual above noise; `left`: remaining Σ r².
-double explained(double left, const std::vector<double>& r) {
+/// Explained part of the residual above noise. `remaining`: Σ r² after the explanation.
+double explained(double remaining, const std::vector<double>& r) {
   const double before = remaining_residual(0, r);
   const auto n = static_cast<double>(r.size());
-  return before > 1.05 * n ? std::min(1.0, (before - left) / (before - n)) : 0;
+  constexpr double least_ratio = 1.05;  // of Σ r² to that of noise; chosen
+  return before > least_ratio * n ? std::min(1.0, (before - remaining) / (before - n)) : 0;
 }
 
 }  // namespace
 
 std::vector<Variable> variables(const Evaluator& evaluator, std::size_t episode,
                                 effects::Stage stage, const std::string& on) {
-  const residuals::Explanation& e = evaluator.bare().of_episode[episode];
+  const residuals::Explanation& e = evaluator.nominal_evaluation().of_episode[episode];
   const residuals::Episode& recorded = evaluator.episodes()[episode];
   const residuals::Bump bump(residuals::Windows{}.half_width_s, recorded.period_s);
   std::vector<Variable> all;
@@ -184,28 +186,28 @@ double explained_by_one_variable(const Evaluator& evaluator, const Evaluation& e
   const Sample training = sample(evaluator, evaluation, stage, on, sets.train);
   const Sample held_out_sample = sample(evaluator, evaluation, stage, on, sets.held_out);
   if (training.residual.empty() || held_out_sample.residual.empty()) return 0;
-  const double plain = remaining_residual(mean_of(training.residual), held_out_sample.residual);
+  const double baseline = remaining_residual(mean_of(training.residual), held_out_sample.residual);
   const double beyond_noise = remaining_residual(0, held_out_sample.residual) -
                               static_cast<double>(held_out_sample.residual.size());
-  double most = 0;
+  double largest = 0;
   for (std::size_t v = 0; v < training.variables.size(); ++v) {
     if (training.variables[v].name == time_name) continue;
     const Map map = map_of(training.variables[v].value, training.residual);
-    const double left =
+    const double remaining =
         remaining_residual(map, held_out_sample.variables[v].value, held_out_sample.residual);
-    most = std::max(most, beyond_noise > 0 ? (plain - left) / beyond_noise : 0);
+    largest = std::max(largest, beyond_noise > 0 ? (baseline - remaining) / beyond_noise : 0);
   }
-  return most;
+  return largest;
 }
 
 std::vector<Region> regions(const Evaluator& evaluator, const Evaluation& evaluation,
                             effects::Stage stage, const std::string& on,
                             std::span<const std::size_t> episodes) {
   constexpr const char* fifths[] = {"lowest", "low", "middle", "high", "highest"};
-  constexpr double crowded = 0.35;  // share of Σ r² in a fifth of the windows; chosen
+  constexpr double smallest_share = 0.35;  // of Σ r² in a fifth of the windows; chosen
   const Sample all = sample(evaluator, evaluation, stage, on, episodes);
-  double whole = 0;
-  for (const double r : all.residual) whole += r * r;
+  double total = 0;
+  for (const double r : all.residual) total += r * r;
   std::vector<Region> found;
   const auto add = [&](const std::string& name, const std::vector<double>& x) {
     std::vector<std::size_t> order;
@@ -214,16 +216,16 @@ std::vector<Region> regions(const Evaluator& evaluator, const Evaluation& evalua
     std::ranges::sort(order, {}, [&](std::size_t k) { return x[k]; });
     std::array<double, 5> share{};
     for (std::size_t k = 0; k < order.size(); ++k)
-      share[k * 5 / order.size()] += all.residual[order[k]] * all.residual[order[k]] / whole;
+      share[k * 5 / order.size()] += all.residual[order[k]] * all.residual[order[k]] / total;
     for (std::size_t f = 0; f < 5; ++f)
-      if (share[f] > crowded) found.push_back({name, fifths[f], share[f]});
+      if (share[f] > smallest_share) found.push_back({name, fifths[f], share[f]});
   };
   for (const Variable& v : all.variables) {
     add(v.name, v.value);
     if (!v.name.ends_with("speed")) continue;
     std::vector<double> size = v.value;
     for (double& x : size) x = std::abs(x);
-    add("size of " + v.name, size);  // its lowest fifth: reversals
+    add("size of " + v.name, size);  // the lowest fifth contains the reversals
   }
   std::ranges::stable_sort(found, std::greater(), &Region::share);
   return found;

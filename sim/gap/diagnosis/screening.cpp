@@ -18,37 +18,40 @@ using Eigen::VectorXd;
 class Screen {
  public:
   Screen(const Evaluator& evaluator, const Evaluation& base, std::vector<std::size_t> episodes)
-      : evaluator_(evaluator), base_(base), only_(std::move(episodes)), left_(z_of(base)) {
+      : evaluator_(evaluator), base_(base), episodes_(std::move(episodes)), residual_(z_of(base)) {
     for (std::size_t e = 0; e < base.effects.size(); ++e) add_sensitivities(e);
   }
 
-  /// Best score over the candidate's parameters and initial guesses; 0 if it changes nothing.
+  /// Best score over the candidate's parameters and initial guesses; 0 if it changes no residual.
   double screening_score(const Placed& neutral) const {
     double best = 0;
     for (const Placed& perturbed : perturbations(neutral))
-      best = std::max(best, along(z_of(evaluator_.with(base_, perturbed, only_)) - left_));
-    for (const Placed& one : initial_guesses(evaluator_, neutral, only_))
-      best = std::max(best,
-                      left_.squaredNorm() - z_of(evaluator_.with(base_, one, only_)).squaredNorm());
+      best =
+          std::max(best, score_of(z_of(evaluator_.with(base_, perturbed, episodes_)) - residual_));
+    for (const Placed& one : initial_guesses(evaluator_, neutral, episodes_))
+      best = std::max(best, residual_.squaredNorm() -
+                                z_of(evaluator_.with(base_, one, episodes_)).squaredNorm());
     return best;
   }
 
  private:
   VectorXd z_of(const Evaluation& evaluation) const {
     std::vector<double> all;
-    for (const std::size_t e : only_)
+    for (const std::size_t e : episodes_)
       for (const double z : evaluator_.whitened(evaluation, e))
         all.push_back(std::isnan(z) ? 0 : z);
     return VectorXd::Map(all.data(), Eigen::Index(all.size()));
   }
 
-  double along(VectorXd change) const {
-    const double whole = change.squaredNorm();
+  /// (zᵀ d⊥)²/(d⊥ᵀ d⊥)
+  double score_of(VectorXd change) const {
+    const double total = change.squaredNorm();
     for (const VectorXd& d : sensitivities_) change -= d.dot(change) * d;
     const double square = change.squaredNorm();
-    constexpr double own = 1e-4;  // of its square; less is reproduced by the present effects
-    if (square < 1e-12 || square < own * whole) return 0;
-    return std::pow(left_.dot(change), 2) / square;
+    // Of its square; less is reproduced by the present effects.
+    constexpr double smallest_part = 1e-4;
+    if (square < 1e-12 || square < smallest_part * total) return 0;
+    return std::pow(residual_.dot(change), 2) / square;
   }
 
   /// Adds the changes by the parameters of an effect of the base, orthonormal to the others.
@@ -61,7 +64,7 @@ class Screen {
       if (!parameter.fitted) continue;
       const double step = 1e-3 * (parameter.bounds.high - parameter.bounds.low);
       *parameter.value += *parameter.value + step > parameter.bounds.high ? -step : step;
-      VectorXd d = z_of(evaluator_.with(all, only_)) - left_;
+      VectorXd d = z_of(evaluator_.with(all, episodes_)) - residual_;
       for (const VectorXd& other : sensitivities_) d -= other.dot(d) * other;
       if (d.norm() > 1e-9) sensitivities_.push_back(d.normalized());
     }
@@ -69,8 +72,8 @@ class Screen {
 
   const Evaluator& evaluator_;
   const Evaluation& base_;
-  std::vector<std::size_t> only_;
-  VectorXd left_;
+  std::vector<std::size_t> episodes_;
+  VectorXd residual_;
   std::vector<VectorXd> sensitivities_;
 };
 
@@ -78,15 +81,15 @@ std::vector<double> screening_scores(const Evaluator& evaluator, const Evaluatio
                                      const RankingOptions& options,
                                      const std::vector<Placed>& all) {
   std::vector<double> scores(all.size());
-  const bool drive =
-      !evaluator.nominal().drives.empty();  // each recording of a drive may have a single speed
+  // All recordings of a drive are used because each may have a single speed.
+  const bool is_drive = !evaluator.nominal().drives.empty();
   const Screen screen(
       evaluator, base,
-      drive ? options.train : std::vector{largest_residuals_in(evaluator, base, options.train)});
-  const auto found = map(options.pool, options.threads, all.size(), [&](std::size_t k) {
+      is_drive ? options.train : std::vector{largest_residuals_in(evaluator, base, options.train)});
+  const auto results = map(options.pool, options.threads, all.size(), [&](std::size_t k) {
     return Pool::Numbers{screen.screening_score(all[k])};
   });
-  for (std::size_t k = 0; k < all.size(); ++k) scores[k] = found[k][0];
+  for (std::size_t k = 0; k < all.size(); ++k) scores[k] = results[k][0];
   return scores;
 }
 
@@ -95,7 +98,7 @@ std::vector<double> screening_scores(const Evaluator& evaluator, const Evaluatio
 std::vector<Placed> candidates(const Evaluator& evaluator,
                                const std::vector<std::string>& withhold) {
   const bool estimated =
-      std::ranges::any_of(evaluator.bare().of_episode,
+      std::ranges::any_of(evaluator.nominal_evaluation().of_episode,
                           [](const residuals::Explanation& e) { return e.joints->estimated; });
   const residuals::Stages nominal(evaluator.nominal());
   std::vector<Placed> all;
@@ -117,14 +120,14 @@ std::vector<Placed> perturbations(const Placed& neutral) {
   effects::AnyEffect counted = neutral.effect;
   const std::size_t count = effects::parameters(counted).size();
   for (std::size_t k = 0; k < count; ++k)
-    for (const double share : {small, 0.1}) {
+    for (const double fraction : {small, 0.1}) {
       Placed perturbed = neutral;
       const auto parameters = effects::parameters(perturbed.effect);
       if (!parameters[k].fitted) continue;
       for (std::size_t other = 0; other < k; ++other)
         *parameters[other].value += small * parameters[other].bounds.high;
       const auto& [low, high] = parameters[k].bounds;
-      *parameters[k].value += share * (high > 0 ? high : low);
+      *parameters[k].value += fraction * (high > 0 ? high : low);
       all.push_back(std::move(perturbed));
     }
   return all;
@@ -144,11 +147,11 @@ std::vector<Placed> screen_effects(const Evaluator& evaluator, const Evaluation&
   const auto scores = screening_scores(evaluator, base, options, all);
   auto sorted = scores;
   std::ranges::sort(sorted, std::greater());
-  const double enough = std::min(options.screen_share * sorted[0],
-                                 sorted[std::min(options.fitted_at_least, sorted.size()) - 1]);
+  const double threshold = std::min(options.screen_share * sorted[0],
+                                    sorted[std::min(options.fitted_at_least, sorted.size()) - 1]);
   std::vector<Placed> chosen;
   for (std::size_t k = 0; k < all.size(); ++k)
-    if (scores[k] > 0 && scores[k] >= enough) chosen.push_back(all[k]);
+    if (scores[k] > 0 && scores[k] >= threshold) chosen.push_back(all[k]);
   return chosen;
 }
 

@@ -13,8 +13,8 @@ using effects::Placed;
 
 /// Change of the residuals by one candidate.
 struct Change {
-  std::vector<double> z;          ///< of every window
-  std::vector<double> square_at;  ///< Σ by stage
+  std::vector<double> z;          ///< Δz of every window
+  std::vector<double> square_at;  ///< Σ Δz² by stage
   double square = 0;
 };
 
@@ -22,10 +22,10 @@ Change change_of(const Problem& problem, const Evaluator& evaluator,
                  const std::vector<StageGap>& stages, const Evaluation& with) {
   Change change{{}, std::vector<double>(stages.size(), 0.0)};
   for (const std::size_t e : problem.sets.held_out) {
-    const auto before = evaluator.whitened(evaluator.bare(), e),
+    const auto before = evaluator.whitened(evaluator.nominal_evaluation(), e),
                after = evaluator.whitened(with, e);
     std::size_t at = 0;
-    for (const residuals::Residual& r : evaluator.bare().of_episode[e].residuals) {
+    for (const residuals::Residual& r : evaluator.nominal_evaluation().of_episode[e].residuals) {
       const auto stage = std::size_t(find_stage(stages, r.stage, r.on) - stages.begin());
       for (std::size_t n = 0; n < r.value.size(); ++n, ++at) {
         const double d = std::isnan(before[at]) ? 0 : after[at] - before[at];
@@ -37,8 +37,8 @@ Change change_of(const Problem& problem, const Evaluator& evaluator,
   return change;
 }
 
-/// Sets `signature` and `likeness` of each candidate from its change on the held-out recordings. Clears the
-/// evaluations of `ranked`, which are large.
+/// Sets `signature` and `similarity` of each candidate from its change on the held-out recordings.
+/// Clears the evaluations of `ranked`, which are large.
 void compute_signatures(const Problem& problem, const Evaluator& evaluator,
                         const std::vector<StageGap>& stages, std::vector<Ranked>& ranked,
                         std::vector<IdentifiedEffect>& names) {
@@ -49,7 +49,7 @@ void compute_signatures(const Problem& problem, const Evaluator& evaluator,
     if (k == 0) first = change;
     double dot = 0;
     for (std::size_t n = 0; n < first.z.size(); ++n) dot += first.z[n] * change.z[n];
-    names[k].likeness = dot / std::max(std::sqrt(first.square * change.square), 1e-12);
+    names[k].similarity = dot / std::max(std::sqrt(first.square * change.square), 1e-12);
     for (double& s : change.square_at) s /= std::max(change.square, 1e-12);
     names[k].signature = std::move(change.square_at);
   }
@@ -59,7 +59,8 @@ void compute_signatures(const Problem& problem, const Evaluator& evaluator,
 std::vector<IdentifiedEffect> alternatives(const Problem& problem, const Evaluator& evaluator,
                                            const EffectSet& chosen_set, std::size_t k) {
   const Placed& chosen = chosen_set.chosen()[k];
-  const Evaluation without = evaluator.with(all_but(chosen_set.chosen(), k), problem.sets.all());
+  const Evaluation without =
+      evaluator.with(without_element(chosen_set.chosen(), k), problem.sets.all());
   const auto ranked = rank(evaluator, without, problem.ranking_options(0.85, 0.95));
   if (ranked.empty() || ranked[0].fit.placed.on != chosen.on) return {};
   auto same = confusable(ranked, problem.ranking_options());
@@ -72,71 +73,74 @@ std::vector<IdentifiedEffect> alternatives(const Problem& problem, const Evaluat
   return all;
 }
 
-/// Sets the answer to several effects with their Shapley values and, if they explain the gap, their alternatives.
+/// Sets the answer to several effects with their Shapley values and, if they explain the gap, their
+/// alternatives.
 void set_answer(const Problem& problem, const Evaluator& evaluator, const EffectSet& chosen_set,
                 Selection& selection) {
-  const ShapleyValues part = shapley_values(problem, evaluator, chosen_set.chosen());
-  selection.interaction = part.interaction;
+  const ShapleyValues values = shapley_values(problem, evaluator, chosen_set.chosen());
+  selection.interaction = values.interaction;
   selection.answer.clear();
   for (std::size_t k = 0; k < chosen_set.size(); ++k) {
-    Ranked r{chosen_set.fits()[k], {}, {}, part.share[k], part.interval[k], 0};
+    Ranked r{chosen_set.fits()[k], {}, {}, values.share[k], values.interval[k], 0};
     selection.answer.push_back(identified(r, 0));
-    selection.answer.back().supported = part.lost[k].low > 0;
+    selection.answer.back().supported = values.lost[k].low > 0;
     if (selection.explained())
       selection.answer.back().alternatives = alternatives(problem, evaluator, chosen_set, k);
   }
   std::ranges::stable_sort(selection.answer, std::greater(), &IdentifiedEffect::gain);
 }
 
-/// The best single effect, and further ones while a stage stays open.
+/// The best single effect, and further effects while a stage is open.
 EffectSet forward_selection(const Problem& problem, const Evaluator& evaluator,
                             const Placed& first) {
   EffectSet chosen_set(problem, evaluator, {first});
   while (chosen_set.leaves_unexplained(problem.options.search) &&
          chosen_set.size() < problem.options.most_effects)
     if (!chosen_set.add_another()) break;
-  chosen_set.drop_superfluous();
+  chosen_set.remove_unnecessary();
   return chosen_set;
 }
 
-/// Ranks every effect alone, best first.
-void rank_alone(const Problem& problem, const Evaluator& evaluator,
-                const std::vector<StageGap>& stages, Selection& s) {
-  auto which = problem.ranking_options(0.1, 0.5);
-  which.stages = s.left;
-  s.alone = rank(evaluator, evaluator.bare(), which);
-  for (const Ranked& r : s.alone) s.ranked.push_back(identified(r, problem.options.least_gain));
-  compute_signatures(problem, evaluator, stages, s.alone, s.ranked);
-  control_discoveries(s.alone, s.ranked);
+/// Ranks individually fitted effects.
+void rank_single(const Problem& problem, const Evaluator& evaluator,
+                 const std::vector<StageGap>& stages, Selection& s) {
+  auto ranking = problem.ranking_options(0.1, 0.5);
+  ranking.stages = s.remaining;
+  s.single_fits = rank(evaluator, evaluator.nominal_evaluation(), ranking);
+  for (const Ranked& r : s.single_fits)
+    s.ranked.push_back(identified(r, problem.options.least_gain));
+  compute_signatures(problem, evaluator, stages, s.single_fits, s.ranked);
+  control_discoveries(s.single_fits, s.ranked);
 }
 
 }  // namespace
 
-bool Selection::explained() const { return !answer.empty() && !any_open(left); }
+bool Selection::explained() const { return !answer.empty() && !any_open(remaining); }
 
 Selection select(const Problem& problem, const Evaluator& evaluator,
                  const std::vector<StageGap>& stages, Depth depth, Selection earlier) {
-  Selection s{.left = localize(evaluator, evaluator.bare(), problem.sets.held_out,
-                               problem.localization_options()),
-              .evaluation = evaluator.bare()};
-  s.gap = any_open(
-      localize(evaluator, evaluator.bare(), problem.sets.all(), problem.localization_options()));
+  Selection s{.remaining = localize(evaluator, evaluator.nominal_evaluation(),
+                                    problem.sets.held_out, problem.localization_options()),
+              .evaluation = evaluator.nominal_evaluation()};
+  s.gap = any_open(localize(evaluator, evaluator.nominal_evaluation(), problem.sets.all(),
+                            problem.localization_options()));
   if (!s.gap) return s;
-  if (earlier.alone.empty()) rank_alone(problem, evaluator, stages, s);
-  else s.alone = std::move(earlier.alone), s.ranked = std::move(earlier.ranked);
-  const std::vector<Ranked>& first = s.alone;
-  s.shown = any_open(s.left);
-  if (first.empty() || !s.shown) return s;
+  if (earlier.single_fits.empty()) rank_single(problem, evaluator, stages, s);
+  else s.single_fits = std::move(earlier.single_fits), s.ranked = std::move(earlier.ranked);
+  const std::vector<Ranked>& first = s.single_fits;
+  s.is_visible = any_open(s.remaining);
+  if (first.empty() || !s.is_visible) return s;
   if (!s.ranked[0].supported) {
     const Evaluation best =
-        evaluator.with(evaluator.bare(), first[0].fit.placed, problem.sets.held_out);
-    s.shown = any_open(unexplained_stages(problem, evaluator, best, problem.options.alone));
+        evaluator.with(evaluator.nominal_evaluation(), first[0].fit.placed, problem.sets.held_out);
+    s.is_visible = any_open(unexplained_stages(problem, evaluator, best, problem.options.single));
     return s;
   }
   s.answer = {s.ranked[0]};
-  if (depth == Depth::best_alone) {
-    s.evaluation = evaluator.with(evaluator.bare(), first[0].fit.placed, problem.sets.all());
-    s.left = unexplained_stages(problem, evaluator, s.evaluation, problem.options.alone);
+  if (depth == Depth::best_single) {
+    s.evaluation =
+        evaluator.with(evaluator.nominal_evaluation(), first[0].fit.placed, problem.sets.all());
+    s.remaining = unexplained_stages(problem, evaluator, s.evaluation, problem.options.single);
     for (const std::size_t k : confusable(first, problem.ranking_options()))
       s.answer[0].alternatives.push_back(s.ranked[k]);
     return s;
@@ -144,15 +148,15 @@ Selection select(const Problem& problem, const Evaluator& evaluator,
   const DiagnoseOptions& options = problem.options;
   EffectSet chosen_set = forward_selection(problem, evaluator, first[0].fit.placed);
   const bool unexplained_stages =
-      chosen_set.leaves_unexplained(chosen_set.size() == 1 ? options.alone : options.together);
+      chosen_set.leaves_unexplained(chosen_set.size() == 1 ? options.single : options.effect_set);
   if (unexplained_stages || chosen_set.size() > 1)
     if (auto batch = same_type_on_open_actuators(problem, evaluator, first))
       if (unexplained_stages ||
           (batch->size() <= chosen_set.size() && batch->square() < chosen_set.square()))
         chosen_set = std::move(*batch);
-  const bool one = chosen_set.size() == 1;
-  s.left = chosen_set.left(one ? options.alone : options.together);
-  if (!one || !s.answer[0].is(chosen_set.chosen()[0]))
+  const bool is_single = chosen_set.size() == 1;
+  s.remaining = chosen_set.remaining(is_single ? options.single : options.effect_set);
+  if (!is_single || !s.answer[0].is(chosen_set.chosen()[0]))
     set_answer(problem, evaluator, chosen_set, s);
   else
     for (const std::size_t k : confusable(first, problem.ranking_options()))

@@ -23,21 +23,24 @@ VectorXd z_of(const Evaluator& evaluator, const Evaluation& evaluation) {
   return Eigen::Map<VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
 }
 
-Sensitivity sensitivity_of(const Evaluator& evaluator, const VectorXd& bare,
+Sensitivity sensitivity_of(const Evaluator& evaluator, const VectorXd& nominal_evaluation,
                            const Placed& neutral) {
   const auto all = each(evaluator.episodes().size());
   const auto variants = perturbations(neutral);  // a small and a larger one of each parameter
-  MatrixXd changes(bare.size(), static_cast<Eigen::Index>(variants.size()) / 2);
+  MatrixXd changes(nominal_evaluation.size(), static_cast<Eigen::Index>(variants.size()) / 2);
   Sensitivity sensitivity;
   for (Eigen::Index k = 0; k < changes.cols(); ++k)
     for (const Placed& perturbed : std::span(variants).subspan(std::size_t(2 * k), 2)) {
-      changes.col(k) = z_of(evaluator, evaluator.with(evaluator.bare(), perturbed, all)) - bare;
+      changes.col(k) =
+          z_of(evaluator, evaluator.with(evaluator.nominal_evaluation(), perturbed, all)) -
+          nominal_evaluation;
       if (k == 0) sensitivity.perturbed = perturbed;
-      if (changes.col(k).norm() > shown) break;
+      if (changes.col(k).norm() > visible_change) break;
     }
   const Eigen::ColPivHouseholderQR<MatrixXd> parts(changes);
   sensitivity.first = changes.col(0);
-  sensitivity.span = parts.householderQ() * MatrixXd::Identity(bare.size(), parts.rank());
+  sensitivity.span =
+      parts.householderQ() * MatrixXd::Identity(nominal_evaluation.size(), parts.rank());
   return sensitivity;
 }
 
@@ -45,11 +48,12 @@ Sensitivity sensitivity_of(const Evaluator& evaluator, const VectorXd& bare,
 
 std::vector<Sensitivity> sensitivities(const Evaluator& evaluator,
                                        const std::vector<std::string>& withhold, int threads) {
-  const VectorXd bare = z_of(evaluator, evaluator.bare());
+  const VectorXd nominal_evaluation = z_of(evaluator, evaluator.nominal_evaluation());
   const auto all = candidates(evaluator, withhold);
   std::vector<Sensitivity> sensitivities(all.size());
-  in_parallel(all.size(), threads,
-              [&](std::size_t k) { sensitivities[k] = sensitivity_of(evaluator, bare, all[k]); });
+  in_parallel(all.size(), threads, [&](std::size_t k) {
+    sensitivities[k] = sensitivity_of(evaluator, nominal_evaluation, all[k]);
+  });
   return sensitivities;
 }
 

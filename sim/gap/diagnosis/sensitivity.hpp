@@ -5,11 +5,11 @@
 
 #include "sim/gap/diagnosis/evaluation.hpp"
 
-/// Sensitivity: change δz of the residuals by a small effect, in units of noise; 0 in windows that are not
-/// evaluated. Laws are linearized.
+/// Sensitivity: change δz of the residuals by a small effect, in units of noise. It is 0 in windows
+/// that are not evaluated. Laws are linearized.
 namespace sim::diagnosis {
 
-constexpr double shown = 1;  ///< |δz| in standard deviations below which a change is not visible
+constexpr double visible_change = 1;  ///< smallest visible |δz|, in standard deviations
 
 struct Sensitivity {
   effects::Placed perturbed;  ///< by 0.3 % of the range, or 10 % if that is not visible

@@ -5,13 +5,13 @@
 #include "sim/gap/diagnosis/answer.hpp"
 #include "sim/gap/diagnosis/problem.hpp"
 
-/// Shapley values: the share of each of several causes in the gap that they close together.
+/// Shapley values: the fraction of each of several causes in the gap that they jointly close.
 ///
 ///   v(S) = (S₀ − S_S)/(S₀ − N)                    gap closed by the subset S of the effects
-///   φ_k  = mean of v(S + k) − v(S) over all orders of adding the effects      (Shapley 1953)
+///   φ_k  = mean of v(S + k) − v(S) over all orders in which the effects can be added      (Shapley 1953)
 ///
-/// For more than six effects: φ_k = (v({k}) + v(all) − v(all but k))/2, which is the same if no three effects
-/// interact. The sum of φ is what all close; lost: v(all) − v(all but k); interaction: v(all) − Σ v({k}).
+/// For more than six effects: φ_k = (v({k}) + v(all) − v(all but k))/2, which is equal if no three
+/// effects interact. Σ φ_k = v(all). lost: v(all) − v(all but k); interaction: v(all) − Σ v({k}).
 namespace sim::diagnosis {
 
 struct ShapleyValues {

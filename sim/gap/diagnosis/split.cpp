@@ -8,7 +8,7 @@ namespace sim::diagnosis {
 namespace {
 
 /// Range of the signals of a recording: 5 % and 95 % quantiles of each signal.
-std::vector<std::pair<double, double>> reach(const residuals::Episode& episode) {
+std::vector<std::pair<double, double>> ranges_of(const residuals::Episode& episode) {
   std::vector<std::pair<double, double>> all;
   const auto add = [&](const residuals::Signal& signal, bool rate) {
     std::vector<double> values;
@@ -39,60 +39,60 @@ std::vector<std::size_t> Sets::all() const {
 
 Sets split(std::span<const residuals::Episode> episodes) {
   const std::size_t count = episodes.size();
-  std::vector<std::vector<std::pair<double, double>>> reaches;
-  for (const residuals::Episode& episode : episodes) reaches.push_back(reach(episode));
-  std::vector<std::pair<double, std::size_t>> beyond;
+  std::vector<std::vector<std::pair<double, double>>> ranges;
+  for (const residuals::Episode& episode : episodes) ranges.push_back(ranges_of(episode));
+  std::vector<std::pair<double, std::size_t>> excess_of_range;
   for (std::size_t e = 0; e < count; ++e) {
     double sum = 0;
-    for (std::size_t s = 0; s < reaches[e].size(); ++s) {
+    for (std::size_t s = 0; s < ranges[e].size(); ++s) {
       double low = 1e300, high = -1e300;
       for (std::size_t other = 0; other < count; ++other)
         if (other != e)
-          low = std::min(low, reaches[other][s].first),
-          high = std::max(high, reaches[other][s].second);
+          low = std::min(low, ranges[other][s].first),
+          high = std::max(high, ranges[other][s].second);
       const double width = std::max(high - low, 1e-12);
-      sum += std::max(0.0, low - reaches[e][s].first) / width +
-             std::max(0.0, reaches[e][s].second - high) / width;
+      sum += std::max(0.0, low - ranges[e][s].first) / width +
+             std::max(0.0, ranges[e][s].second - high) / width;
     }
-    beyond.emplace_back(-sum, e);
+    excess_of_range.emplace_back(-sum, e);
   }
-  std::ranges::sort(beyond);
-  const std::size_t held = count < 2 ? 0 : std::max<std::size_t>(1, count / 3);
+  std::ranges::sort(excess_of_range);
+  const std::size_t held_out_count = count < 2 ? 0 : std::max<std::size_t>(1, count / 3);
   Sets sets;
   for (std::size_t k = 0; k < count; ++k)
-    (k < held ? sets.held_out : sets.train).push_back(beyond[k].second);
+    (k < held_out_count ? sets.held_out : sets.train).push_back(excess_of_range[k].second);
   std::ranges::sort(sets.train), std::ranges::sort(sets.held_out);
   return sets;
 }
 
 namespace {
 
-/// Which recordings show which open stages.
+/// The recordings that show each open stage.
 class Visibility {
  public:
-  Visibility(const Sets& sets, const Evaluator& plain, const LocalizationOptions& options) {
+  Visibility(const Sets& sets, const Evaluator& baseline, const LocalizationOptions& options) {
     for (const std::size_t e : sets.all()) {
       const std::size_t only[] = {e};
-      gaps_[e] = localize(plain, plain.bare(), only, options);
+      gaps_[e] = localize(baseline, baseline.nominal_evaluation(), only, options);
     }
   }
 
   /// Recordings in which the stage is open, largest excess last.
   std::vector<std::size_t> of(const StageGap& stage) const {
-    std::vector<std::pair<double, std::size_t>> shows;
+    std::vector<std::pair<double, std::size_t>> showing;
     for (const auto& [e, gaps] : gaps_)
       if (const auto gap = find_stage(gaps, stage.stage, stage.on); gap != gaps.end() && gap->open)
-        shows.emplace_back(gap->excess, e);
-    std::ranges::sort(shows);
+        showing.emplace_back(gap->excess, e);
+    std::ranges::sort(showing);
     std::vector<std::size_t> episodes;
-    for (const auto& [excess, e] : shows) episodes.push_back(e);
+    for (const auto& [excess, e] : showing) episodes.push_back(e);
     return episodes;
   }
 
   bool on_both_sides(const StageGap& stage, const Sets& sets) const {
-    const auto shows = of(stage);
+    const auto showing = of(stage);
     const auto among = [&](const std::vector<std::size_t>& side) {
-      return std::ranges::any_of(shows, [&](auto e) { return std::ranges::count(side, e) > 0; });
+      return std::ranges::any_of(showing, [&](auto e) { return std::ranges::count(side, e) > 0; });
     };
     return among(sets.train) && among(sets.held_out);
   }
@@ -102,25 +102,25 @@ class Visibility {
 };
 
 /// The open stages, largest share first.
-std::vector<StageGap> open_stages(const Sets& sets, const Evaluator& plain,
+std::vector<StageGap> open_stages(const Sets& sets, const Evaluator& baseline,
                                   const LocalizationOptions& options) {
-  auto gaps = localize(plain, plain.bare(), sets.all(), options);
+  auto gaps = localize(baseline, baseline.nominal_evaluation(), sets.all(), options);
   std::erase_if(gaps, [](const StageGap& gap) { return !gap.open; });
   return gaps;
 }
 
 /// The row at which the sum Σ (z² − 1) of a stage reaches half of its total.
-std::size_t middle_row(const Evaluator& plain, std::size_t episode, const StageGap& stage) {
-  const residuals::Explanation& e = plain.bare().of_episode[episode];
-  const auto z = plain.whitened(plain.bare(), episode);
+std::size_t middle_row(const Evaluator& baseline, std::size_t episode, const StageGap& stage) {
+  const residuals::Explanation& e = baseline.nominal_evaluation().of_episode[episode];
+  const auto z = baseline.whitened(baseline.nominal_evaluation(), episode);
   const std::size_t windows = e.rows.size();
   std::vector<double> sum{0};
   for (std::size_t k = 0; k < windows; ++k) {
-    double here = 0;
+    double excess = 0;
     for (std::size_t r = 0; r < e.residuals.size(); ++r)
       if (same_stage(e.residuals[r], stage.stage, stage.on) && !std::isnan(z[r * windows + k]))
-        here += z[r * windows + k] * z[r * windows + k] - 1;
-    sum.push_back(sum.back() + here);
+        excess += z[r * windows + k] * z[r * windows + k] - 1;
+    sum.push_back(sum.back() + excess);
   }
   const double half = sum.back() / 2;
   std::size_t k = 1;
@@ -128,18 +128,18 @@ std::size_t middle_row(const Evaluator& plain, std::size_t episode, const StageG
   return e.rows[k];
 }
 
-std::pair<residuals::Episode, residuals::Episode> parts_of(const residuals::Episode& whole,
+std::pair<residuals::Episode, residuals::Episode> parts_of(const residuals::Episode& total,
                                                            std::size_t row) {
-  std::pair<residuals::Episode, residuals::Episode> parts{whole, whole};
+  std::pair<residuals::Episode, residuals::Episode> parts{total, total};
   parts.first.judged_until = parts.second.judged_from = row;
   return parts;
 }
 
-/// Whether the stage is open in each part alone.
-bool both_show(const Cut& cut, const Evaluator& plain, const LocalizationOptions& options) {
-  const auto [first, second] = parts_of(plain.episodes()[cut.episode], cut.row);
+/// Whether the stage is open in each part.
+bool both_show(const Cut& cut, const Evaluator& baseline, const LocalizationOptions& options) {
+  const auto [first, second] = parts_of(baseline.episodes()[cut.episode], cut.row);
   for (const residuals::Episode& part : {first, second}) {
-    const auto gaps = localize(plain.nominal(), std::span(&part, 1), options);
+    const auto gaps = localize(baseline.nominal(), std::span(&part, 1), options);
     const auto gap = find_stage(gaps, cut.stage, cut.on);
     if (gap == gaps.end() || !gap->open) return false;
   }
@@ -148,30 +148,32 @@ bool both_show(const Cut& cut, const Evaluator& plain, const LocalizationOptions
 
 }  // namespace
 
-Sets hold_out_visible(Sets sets, const Evaluator& plain, const LocalizationOptions& options) {
-  const auto open = open_stages(sets, plain, options);
-  const Visibility visibility(sets, plain, options);
+Sets hold_out_visible(Sets sets, const Evaluator& baseline, const LocalizationOptions& options) {
+  const auto open = open_stages(sets, baseline, options);
+  const Visibility visibility(sets, baseline, options);
   if (open.empty() || visibility.on_both_sides(open[0], sets)) return sets;
-  const auto shows = visibility.of(open[0]);
-  if (shows.size() < 2) return sets;
+  const auto showing = visibility.of(open[0]);
+  if (showing.size() < 2) return sets;
   const auto all = sets.all();
-  sets.held_out = {
-      shows[shows.size() - 2]};  // the recording with the largest excess is for training
+  sets.held_out = {showing[showing.size() - 2]};  // the largest excess is for training
   sets.train = all;
   std::erase(sets.train, sets.held_out[0]);
   return sets;
 }
 
-std::vector<Cut> cuts(const Sets& sets, const Evaluator& plain,
+std::vector<Cut> cuts(const Sets& sets, const Evaluator& baseline,
                       const LocalizationOptions& options) {
-  constexpr double worth = 0.05;  // least share of the gap for which a recording is cut; chosen
-  const Visibility visibility(sets, plain, options);
+  constexpr double least_share = 0.05;  // of the gap, for which a recording is cut; chosen
+  const Visibility visibility(sets, baseline, options);
   std::vector<Cut> cuts;
-  for (const StageGap& stage : open_stages(sets, plain, options)) {
-    const auto shows = visibility.of(stage);
-    if (stage.share < worth || shows.empty() || visibility.on_both_sides(stage, sets)) continue;
-    const Cut cut{shows.back(), middle_row(plain, shows.back(), stage), stage.stage, stage.on};
-    if (std::ranges::count(cuts, cut.episode, &Cut::episode) == 0 && both_show(cut, plain, options))
+  for (const StageGap& stage : open_stages(sets, baseline, options)) {
+    const auto showing = visibility.of(stage);
+    if (stage.share < least_share || showing.empty() || visibility.on_both_sides(stage, sets))
+      continue;
+    const Cut cut{showing.back(), middle_row(baseline, showing.back(), stage), stage.stage,
+                  stage.on};
+    if (std::ranges::count(cuts, cut.episode, &Cut::episode) == 0 &&
+        both_show(cut, baseline, options))
       cuts.push_back(cut);
   }
   return cuts;

@@ -10,22 +10,23 @@
 namespace sim::diagnosis {
 namespace {
 
-/// (JᵀJ)⁻¹ by its eigenvectors; a diagonal entry is infinite where the residuals do not depend on a parameter, or where
-/// other parameters have the same effect on them.
+/// (JᵀJ)⁻¹ by its eigenvectors. A diagonal entry is infinite if the residuals do not depend on the
+/// parameter, or if other parameters have the same effect on them.
 Eigen::MatrixXd covariance(const Eigen::MatrixXd& j) {
-  constexpr double infinite = std::numeric_limits<double>::infinity(), nothing = 1e-9;
+  constexpr double infinite = std::numeric_limits<double>::infinity(), rounding_error = 1e-9;
   const Eigen::VectorXd length = j.colwise().norm().transpose();
   const Eigen::VectorXd scale = (length.array() > 0).select(length.cwiseInverse(), 0.0);
   const Eigen::MatrixXd cosines = scale.asDiagonal() * (j.transpose() * j) * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(cosines);
-  const Eigen::ArrayXd along = axes.eigenvalues().array();
-  const Eigen::VectorXd inverse = (along > nothing).select(along.inverse(), 0.0);
-  const Eigen::MatrixXd& v = axes.eigenvectors();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(cosines);
+  const Eigen::ArrayXd eigenvalues = solver.eigenvalues().array();
+  const Eigen::VectorXd inverse = (eigenvalues > rounding_error).select(eigenvalues.inverse(), 0.0);
+  const Eigen::MatrixXd& v = solver.eigenvectors();
   Eigen::MatrixXd c =
       scale.asDiagonal() * (v * inverse.asDiagonal() * v.transpose()) * scale.asDiagonal();
   for (Eigen::Index k = 0; k < j.cols(); ++k)
     if (length[k] == 0 ||
-        (v.row(k).array().square() > nothing && (along <= nothing).transpose()).any())
+        (v.row(k).array().square() > rounding_error && (eigenvalues <= rounding_error).transpose())
+            .any())
       c(k, k) = infinite;
   return c;
 }

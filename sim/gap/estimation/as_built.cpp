@@ -14,35 +14,38 @@ namespace {
 
 using effects::Placed;
 
-/// Whether more than three stages, and more than a fifth of all, keep more than noise. A few effects do not cause that;
-/// chosen.
-bool is_widespread(const Found& found) {
-  const std::size_t open = stages_kept(found);
+/// Whether more than three stages, and more than a fifth of all, are open. A few effects do not
+/// cause that; chosen.
+bool is_widespread(const JudgedEstimate& found) {
+  const std::size_t open = count_open_stages(found);
   return open > 3 && 5 * open > found.tolerated.size();
 }
 
-/// −2 log evidence by Laplace's approximation. It penalizes constants that the recordings determine.
+/// −2 log evidence by Laplace's approximation. It penalizes constants that the recordings
+/// determine.
 double model_cost(const AsBuilt& built) {
   const Eigen::Index n = Eigen::Index(built.uncertain.constants.size());
-  const Eigen::MatrixXd of_constants = built.estimate.covariance.topLeftCorner(n, n);
-  return built.cost - of_constants.ldlt().vectorD().array().log().sum();
+  const Eigen::MatrixXd constant_covariance = built.estimate.covariance.topLeftCorner(n, n);
+  return built.cost - constant_covariance.ldlt().vectorD().array().log().sum();
 }
 
-/// The only stage that keeps more than noise, if it is the only one. Empty for drives, whose laws all act at one stage.
-std::optional<std::size_t> only_open_stage(const Problem& problem, const Found& found) {
+/// The index of the open stage if exactly one is open. Empty for drives because all their laws act
+/// at one stage.
+std::optional<std::size_t> only_open_stage(const Problem& problem, const JudgedEstimate& found) {
   const auto open = open_stages(found);
-  if (!problem.nominal.drives.empty() || stages_kept(found) != 1) return std::nullopt;
+  if (!problem.nominal.drives.empty() || count_open_stages(found) != 1) return std::nullopt;
   return std::size_t(std::ranges::find(open, true) - open.begin());
 }
 
 /// The effect that was added last, and its rivals.
-std::vector<Placed> hints_of(const Found& found) {
+std::vector<Placed> hints_of(const JudgedEstimate& found) {
   std::vector<Placed> hints{found.train.point.effects.back()};
-  for (const Sized& rival : found.rivals.back().all) hints.push_back(rival.effect);
+  for (const SizedEffect& rival : found.rivals.back().all) hints.push_back(rival.effect);
   return hints;
 }
 
-/// The hypothesis that the robot is as described, except for effects and for what is never certain.
+/// The hypothesis that the robot is as described, except for effects and for constants that are
+/// never certain.
 class AsDescribed {
  public:
   explicit AsDescribed(const Problem& problem)
@@ -50,35 +53,36 @@ class AsDescribed {
         built_{.uncertain = uncertain_of(problem.nominal, options().search.withhold, true),
                .exact = true},
         search_(problem.train, problem.held_out, built_.uncertain, options().search),
-        found_(search_.with({})) {
-    if (const auto stage = only_open_stage(problem_, found_)) describe_unknown_law(*stage);
+        judged_(search_.with({})) {
+    if (const auto stage = only_open_stage(problem_, judged_)) describe_unknown_law(*stage);
   }
   AsDescribed(const AsDescribed&) = delete;
 
-  /// Adds one effect, if one relieves a stage, and sets `hints` to the effects that would explain most.
+  /// Adds one effect if it relieves a stage. Sets `hints` to the effects that would explain most.
   void find_first() {
     if (!explains())
-      if (auto first = search_.with_best_candidate(found_)) {
+      if (auto first = search_.with_best_candidate(judged_)) {
         hints = hints_of(*first);
-        if (relieves(*first, found_)) found_ = std::move(*first);
+        if (relieves(*first, judged_)) judged_ = std::move(*first);
       }
     if (explains()) compare_suggested();
   }
   void find_others() {
-    if (!is_widespread(found_))
-      found_ = search_.run(std::move(found_), options().search.most_effects);
+    if (!is_widespread(judged_))
+      judged_ = search_.run(std::move(judged_), options().search.most_effects);
     compare_suggested();
   }
-  bool explains() const { return !keeps(found_); }
+  bool explains() const { return !has_open_stage(judged_); }
   AsBuilt answer() const {
     AsBuilt built = built_;
-    take(built, found_);
-    built.cost = found_.cost;
+    set_answer(built, judged_);
+    built.cost = judged_.cost;
     list_uncertain(built);
     return built;
   }
 
-  /// The hypothesis of a law that the library lacks, at the only stage with a gap; empty if several stages have one.
+  /// The hypothesis of a law that the library lacks, at the only stage with a gap; empty if several
+  /// stages have a gap.
   std::optional<AsBuilt> unknown_law;
   std::vector<Placed> hints;
 
@@ -88,20 +92,21 @@ class AsDescribed {
     constexpr double price = 30;  // −2 log of the odds of such a law; chosen
     unknown_law = answer();
     unknown_law->unknown_law = true;
-    unknown_law->cost += price - misfit(found_.on_train, problem_.train.residuals(), stage) -
-                         misfit(found_.held_out, problem_.held_out, stage);
+    unknown_law->cost += price - misfit(judged_.on_train, problem_.train.residuals(), stage) -
+                         misfit(judged_.held_out, problem_.held_out, stage);
   }
   const AsBuiltOptions& options() const { return problem_.options; }
   void compare_suggested() {
     const auto& suggested = options().suggested;
-    if (suggested.empty() || are_same(found_.train.point.effects, suggested)) return;
-    if (Found other = search_.with(suggested); other.cost < found_.cost) found_ = std::move(other);
+    if (suggested.empty() || are_same(judged_.train.point.effects, suggested)) return;
+    if (JudgedEstimate other = search_.with(suggested); other.cost < judged_.cost)
+      judged_ = std::move(other);
   }
 
   const Problem& problem_;
   AsBuilt built_;
   Search search_;
-  Found found_;
+  JudgedEstimate judged_;
 };
 
 /// The hypothesis that all constants are uncertain.
@@ -111,59 +116,62 @@ class WithTolerances {
       : problem_(problem),
         built_{.uncertain = uncertain_of(problem.nominal, problem.options.search.withhold, false)},
         search_(problem.train, problem.held_out, built_.uncertain, problem.options.search),
-        found_(complete(search_, search_.with({}), problem_, built_)) {}
+        judged_(complete(search_, search_.with({}), problem_, built_)) {}
   WithTolerances(const WithTolerances&) = delete;
 
-  /// Whether the constants alone explain, and more parts of the robot are clearly off than effects may be added.
+  /// Whether the constants alone explain, and more parts of the robot deviate clearly than effects
+  /// may be added.
   bool is_sufficient() const {
-    constexpr double clear = 3;  // standard deviations; chosen
+    constexpr double clear_sigmas = 3;  // standard deviations; chosen
     std::set<std::pair<std::string, effects::Stage>> places;
     for (std::size_t k = 0; k < built_.uncertain.constants.size(); ++k) {
       const Constant& c = built_.uncertain.constants[k];
-      if (!is_never_certain(c) && determined(built_, k) > well_determined &&
-          std::abs(built_.estimate.point.x[k]) > clear * built_.estimate.sigma(k))
+      if (!is_never_certain(c) && determined(built_, k) > determined_threshold &&
+          std::abs(built_.estimate.point.x[k]) > clear_sigmas * built_.estimate.sigma(k))
         places.emplace(c.on, c.stage);
     }
-    return !built_.keeps && places.size() > problem_.options.search.most_effects;
+    return !built_.has_open_stage && places.size() > problem_.options.search.most_effects;
   }
-  /// Adds effects if the constants alone leave more than noise, or if an effect could replace constants that are far
-  /// off.
+  /// Adds effects if the constants alone leave a stage open, or if an effect could replace
+  /// constants that are far off.
   AsBuilt answer(const std::vector<Placed>& hints) {
-    if (built_.keeps)
-      complete(search_, search_.run(std::move(found_), problem_.options.search.most_effects),
+    if (built_.has_open_stage)
+      complete(search_, search_.run(std::move(judged_), problem_.options.search.most_effects),
                problem_, built_);
-    return or_effect(problem_, built_, hints);
+    return answer_or_effect(problem_, built_, hints);
   }
 
  private:
   const Problem& problem_;
   AsBuilt built_;
   Search search_;
-  Found found_;
+  JudgedEstimate judged_;
 };
 
-/// The one of the two hypotheses with more evidence. All constants are tried only if one effect on the robot as
-/// described leaves more than noise, and more effects on the latter only if the constants are not sufficient.
+/// The better of the first two hypotheses. All constants are estimated only if the robot as
+/// described with one effect has an open stage. More effects are added to it only if the constants
+/// are not sufficient.
 AsBuilt best_of_two(const Problem& problem, AsDescribed& described) {
   described.find_first();
   if (described.explains()) return described.answer();
-  WithTolerances with(problem);
-  if (with.is_sufficient()) return with.answer(described.hints);
+  WithTolerances tolerant(problem);
+  if (tolerant.is_sufficient()) return tolerant.answer(described.hints);
   described.find_others();
-  AsBuilt one = described.answer();
-  if (!one.keeps) return one;
-  AsBuilt other = with.answer(described.hints);
-  return model_cost(other) < model_cost(one) ? other : one;
+  AsBuilt first = described.answer();
+  if (!first.has_open_stage) return first;
+  AsBuilt second = tolerant.answer(described.hints);
+  return model_cost(second) < model_cost(first) ? second : first;
 }
 
-/// The same, or the unknown law, if the answer has several causes with estimated constants and less evidence.
+/// The better of the first two hypotheses, or the unknown law if that answer has several causes,
+/// estimated constants and less evidence.
 AsBuilt best_of_three(const Problem& problem) {
-  constexpr std::size_t few = 2;  // causes; chosen
+  constexpr std::size_t few_causes = 2;  // chosen
   AsDescribed described(problem);
   AsBuilt best = best_of_two(problem, described);
   const auto& unknown = described.unknown_law;
-  const std::size_t causes = best.beyond.size() + best.estimate.point.effects.size();
-  const bool is_unknown = unknown && !best.exact && !best.keeps && causes > few &&
+  const std::size_t causes = best.beyond_tolerance.size() + best.estimate.point.effects.size();
+  const bool is_unknown = unknown && !best.exact && !best.has_open_stage && causes > few_causes &&
                           model_cost(*unknown) < model_cost(best);
   return is_unknown ? *unknown : best;
 }
@@ -184,17 +192,18 @@ AsBuilt calibrated(const erp::Robot& nominal, std::span<const residuals::Episode
   return built;
 }
 
-Sized estimated(const erp::Robot& nominal, std::span<const residuals::Episode> train,
-                const effects::Placed& effect, const EstimateOptions& options) {
+SizedEffect estimated(const erp::Robot& nominal, std::span<const residuals::Episode> train,
+                      const effects::Placed& effect, const EstimateOptions& options) {
   const Estimator estimator(nominal, train, options);
-  return sized(estimator.run(uncertain_of(nominal, {}, true), {{}, {effect}})).front();
+  return sized_effects(estimator.run(uncertain_of(nominal, {}, true), {{}, {effect}})).front();
 }
 
 AsBuilt as_built(const erp::Robot& nominal, std::span<const residuals::Episode> train,
                  std::span<const residuals::Episode> held_out, const AsBuiltOptions& options) {
   const Estimator estimator(nominal, train, options.estimate);
-  const ResidualVector judged(nominal, held_out, options.estimate.seed, options.estimate.threads);
-  AsBuilt built = best_of_three({nominal, estimator, judged, options});
+  const ResidualVector held_out_residuals(nominal, held_out, options.estimate.seed,
+                                          options.estimate.threads);
+  AsBuilt built = best_of_three({nominal, estimator, held_out_residuals, options});
   built.robot = robot_at(built.uncertain, built.estimate.point);
   return built;
 }

@@ -6,55 +6,59 @@
 namespace sim::estimation {
 
 void list_uncertain(AsBuilt& built) {
-  // Smallest deviations, in tolerances: of a zero, of any other constant; of a zero also in standard errors; chosen.
-  constexpr double least_zero = 1, least = 2.5, clear = 5;
-  const auto far = [&](std::size_t k) { return std::abs(built.estimate.point.x[k]); };
-  const auto from = [&](std::size_t k) {
-    return built.uncertain.constants[k].zero ? std::max(least_zero, clear * built.estimate.sigma(k))
-                                             : least;
+  // Thresholds of deviations; chosen. In tolerances: of a zero, of any other constant; of a zero
+  // also in standard errors.
+  constexpr double zero_tolerances = 1, tolerances = 2.5, zero_sigmas = 5;
+  const auto deviation = [&](std::size_t k) { return std::abs(built.estimate.point.x[k]); };
+  const auto threshold = [&](std::size_t k) {
+    return built.uncertain.constants[k].zero
+               ? std::max(zero_tolerances, zero_sigmas * built.estimate.sigma(k))
+               : tolerances;
   };
   for (std::size_t k = 0; k < built.uncertain.constants.size(); ++k)
-    if (far(k) > from(k) && determined(built, k) > well_determined) built.beyond.push_back(k);
-  std::ranges::sort(built.beyond, std::greater(), far);
-  built.instead.resize(built.beyond.size());
+    if (deviation(k) > threshold(k) && determined(built, k) > determined_threshold)
+      built.beyond_tolerance.push_back(k);
+  std::ranges::sort(built.beyond_tolerance, std::greater(), deviation);
+  built.alternatives.resize(built.beyond_tolerance.size());
 }
 
 namespace {
 
-/// Removes constants that ended near nominal from those far off. True: some were removed, and the rest must be
-/// estimated again.
-bool drop_near(AsBuilt& built) {
-  bool dropped = false;
-  for (std::size_t n = built.beyond.size(); n-- > 0;) {
-    const std::size_t k = built.beyond[n];
+/// Removes the constants whose estimate is near nominal from those far off. Returns whether a
+/// constant was removed; then all constants must be estimated again.
+bool remove_near_nominal(AsBuilt& built) {
+  bool removed = false;
+  for (std::size_t n = built.beyond_tolerance.size(); n-- > 0;) {
+    const std::size_t k = built.beyond_tolerance[n];
     if (is_worth_far(built.uncertain.constants[k], built.estimate.point.x[k])) continue;
-    built.uncertain.far[k] = false, dropped = true;
-    built.beyond.erase(built.beyond.begin() + std::ptrdiff_t(n));
-    built.instead.erase(built.instead.begin() + std::ptrdiff_t(n));
+    built.uncertain.far[k] = false, removed = true;
+    built.beyond_tolerance.erase(built.beyond_tolerance.begin() + std::ptrdiff_t(n));
+    built.alternatives.erase(built.alternatives.begin() + std::ptrdiff_t(n));
   }
-  return dropped;
+  return removed;
 }
 
 }  // namespace
 
 void complete_far_off(const Estimator& estimator, AsBuilt& built) {
-  constexpr int rounds = 4;  // of set and estimate in turn; chosen
+  constexpr int rounds = 4;  // of selection and estimate; chosen
   for (int round = 0; round < rounds; ++round) {
-    FarOff found = far_off(built.uncertain, built.estimate);
+    FarOff selection = far_off(built.uncertain, built.estimate);
     std::vector<bool> far(built.uncertain.constants.size());
-    built.beyond.clear();
-    for (const Deviation& d : found.all) far[d.constant] = true, built.beyond.push_back(d.constant);
-    built.instead.clear();
-    for (const auto& instead : found.instead) {
-      auto& each = built.instead.emplace_back();
-      for (const Deviation& d : instead)
+    built.beyond_tolerance.clear();
+    for (const Deviation& d : selection.all)
+      far[d.constant] = true, built.beyond_tolerance.push_back(d.constant);
+    built.alternatives.clear();
+    for (const auto& alternatives : selection.alternatives) {
+      auto& each = built.alternatives.emplace_back();
+      for (const Deviation& d : alternatives)
         each.push_back(as_effect(built.uncertain.constants[d.constant], d));
     }
     if (far == built.uncertain.far) break;
     built.uncertain.far = std::move(far);
     built.estimate = estimator.continued(built.uncertain, std::move(built.estimate));
   }
-  while (drop_near(built))
+  while (remove_near_nominal(built))
     built.estimate = estimator.continued(built.uncertain, std::move(built.estimate));
 }
 

@@ -28,44 +28,48 @@ bool are_same(const std::vector<Placed>& a, const std::vector<Placed>& b) {
       [](const Placed& p) { return std::pair(p.on, p.effect.index()); });
 }
 
-void take(AsBuilt& built, const Found& found) {
+void set_answer(AsBuilt& built, const JudgedEstimate& found) {
   built.indistinguishable.clear();
   for (std::size_t k = 0; k < found.train.point.effects.size(); ++k)
-    built.indistinguishable.push_back(keeps(found) ? std::vector<Sized>{}
-                                                   : indistinguishable(found, k));
-  built.keeps = keeps(found);
+    built.indistinguishable.push_back(has_open_stage(found) ? std::vector<SizedEffect>{}
+                                                            : indistinguishable(found, k));
+  built.has_open_stage = has_open_stage(found);
   built.estimate = found.train;
 }
 
-Found complete(const Search& search, Found found, const Problem& problem, AsBuilt& built) {
+JudgedEstimate complete(const Search& search, JudgedEstimate found, const Problem& problem,
+                        AsBuilt& built) {
   built.estimate = found.train;
   complete_far_off(problem.train, built);
-  Found settled = search.judge(built.estimate);
+  JudgedEstimate settled = search.judge(built.estimate);
   settled.rivals = std::move(found.rivals);
   const double gain = std::max(0.0, found.cost - settled.cost);
   settled = with_rivals_far(search, std::move(settled), problem, gain, built);
-  if (!built.beyond.empty()) settled = search.pruned(std::move(settled));
+  if (!built.beyond_tolerance.empty()) settled = search.pruned(std::move(settled));
   settled = search.without_doubtful(std::move(settled));
-  take(built, settled);
+  set_answer(built, settled);
   built.cost = settled.cost;
   return settled;
 }
 
 namespace {
 
-/// Adds the other answer as an alternative if one constant far off costs nearly the same as one effect.
-void add_alternatives(AsBuilt& is, const AsBuilt& other, double gain) {
-  if (!are_indistinguishable(is.cost, other.cost, gain)) return;
-  const auto far_of = [](const AsBuilt& b) {
-    const std::size_t k = b.beyond[0];
+/// Adds `other` to the alternatives of `built` if one constant far off costs nearly the same as one
+/// effect.
+void add_alternatives(AsBuilt& built, const AsBuilt& other, double gain) {
+  if (!are_indistinguishable(built.cost, other.cost, gain)) return;
+  const auto far_constant = [](const AsBuilt& b) {
+    const std::size_t k = b.beyond_tolerance[0];
     return as_effect(b.uncertain.constants[k], {k, b.estimate.point.x[k], b.estimate.sigma(k)});
   };
-  const std::size_t effects = is.estimate.point.effects.size(),
-                    of_other = other.estimate.point.effects.size();
-  if (is.beyond.size() == 1 && other.beyond.empty() && of_other == effects + 1)
-    is.instead[0].push_back(sized(other.estimate).back());
-  if (is.beyond.empty() && other.beyond.size() == 1 && effects == of_other + 1)
-    is.indistinguishable.back().push_back(far_of(other));
+  const std::size_t effects = built.estimate.point.effects.size(),
+                    other_effects = other.estimate.point.effects.size();
+  if (built.beyond_tolerance.size() == 1 && other.beyond_tolerance.empty() &&
+      other_effects == effects + 1)
+    built.alternatives[0].push_back(sized_effects(other.estimate).back());
+  if (built.beyond_tolerance.empty() && other.beyond_tolerance.size() == 1 &&
+      effects == other_effects + 1)
+    built.indistinguishable.back().push_back(far_constant(other));
 }
 
 bool is_among(const Placed& effect, std::span<const Placed> effects) {
@@ -81,37 +85,41 @@ bool is_constant(const Placed& effect, const Uncertain& uncertain) {
   });
 }
 
-/// Adds the other answers to the first, cheapest one as rivals, as far as each has one effect.
-void add_rivals(std::vector<Found>& all, double cost_without) {
-  const auto is_one = [](const Found& f) { return f.train.point.effects.size() == 1; };
+/// If the cheapest answer has one effect, adds the other answers with one effect as its rivals.
+/// `all`: the cheapest first.
+void add_rivals(std::vector<JudgedEstimate>& all, double cost_without) {
+  const auto is_one = [](const JudgedEstimate& f) { return f.train.point.effects.size() == 1; };
   if (!is_one(all[0])) return;
   Rivals& rivals = all[0].rivals.back();
   rivals.gain = cost_without - all[0].cost;
-  for (const Found& other : all)
+  for (const JudgedEstimate& other : all)
     if (is_one(other) && !are_same(other.train.point.effects, all[0].train.point.effects))
-      rivals.all.push_back(sized(other.train).back()), rivals.cost.push_back(other.cost);
+      rivals.all.push_back(sized_effects(other.train).back()), rivals.cost.push_back(other.cost);
 }
 
-/// Whether the answer leaves no more than noise, and no parameter of its effects is at a bound.
+/// Whether the answer leaves no stage open, and no parameter of its effects is at a bound.
 bool is_valid(const AsBuilt& built) {
-  return !built.keeps && std::ranges::count(built.estimate.bound, true) == 0;
+  return !built.has_open_stage && std::ranges::count(built.estimate.bound, true) == 0;
 }
 
-/// The cheapest answer with one more screened effect than `base` (if `screened`), or with a hint, alone or in addition.
-/// Then more effects are added while a stage keeps more than noise. The two cheapest screened candidates are hints too:
-/// after constants have moved to imitate an effect, a few steps do not lead back.
-std::optional<Found> with_effect(const Search& search, const Found& base, std::vector<Placed> hints,
-                                 std::size_t most, bool screened) {
-  constexpr std::size_t near = 2;  // screened candidates used as hints; chosen
+/// The cheapest answer with one more screened effect than `base` (if `screened`), or with a hint,
+/// without or with the effects of `base`. Then more effects are added while a stage is open. The
+/// two cheapest screened candidates are hints too, because a few steps do not reset constants that
+/// have moved to imitate an effect.
+std::optional<JudgedEstimate> with_effect(const Search& search, const JudgedEstimate& base,
+                                          std::vector<Placed> hints, std::size_t max_effects,
+                                          bool screened) {
+  constexpr std::size_t screened_hints = 2;  // chosen
   const std::vector<Placed>& others = base.train.point.effects;
-  const std::vector<Found> joined =
-      screened ? search.with_each_candidate(base) : std::vector<Found>{};
-  std::vector<Found> all;
-  if (others.size() < most)
-    if (auto found = search.best_of(joined, base);
+  const std::vector<JudgedEstimate> candidates =
+      screened ? search.with_each_candidate(base) : std::vector<JudgedEstimate>{};
+  std::vector<JudgedEstimate> all;
+  if (others.size() < max_effects)
+    if (auto found = search.best_of(candidates, base);
         found && (others.empty() || relieves(*found, base)))
       all.push_back(std::move(*found));
-  for (const Found& one : std::span(joined).first(std::min(near, joined.size())))
+  for (const JudgedEstimate& one :
+       std::span(candidates).first(std::min(screened_hints, candidates.size())))
     hints.push_back(one.train.point.effects.back());
   for (std::size_t n = 0; n < hints.size(); ++n) {
     const Placed& hint = hints[n];
@@ -119,41 +127,46 @@ std::optional<Found> with_effect(const Search& search, const Found& base, std::v
         is_among(hint, std::span(hints).first(n)))
       continue;
     all.push_back(search.with({hint}));
-    if (others.empty() || others.size() == most) continue;
-    std::vector<Placed> more = others;
-    more.push_back(hint);
-    all.push_back(search.with(more));
+    if (others.empty() || others.size() == max_effects) continue;
+    std::vector<Placed> with_hint = others;
+    with_hint.push_back(hint);
+    all.push_back(search.with(with_hint));
   }
   if (all.empty()) return std::nullopt;
-  std::ranges::stable_sort(all, {}, &Found::cost);
+  std::ranges::stable_sort(all, {}, &JudgedEstimate::cost);
   add_rivals(all, base.cost);
-  return search.run(std::move(all[0]), most);
+  return search.run(std::move(all[0]), max_effects);
 }
 
 }  // namespace
 
-AsBuilt or_effect(const Problem& problem, AsBuilt built, const std::vector<Placed>& hints) {
-  if (!built.keeps && built.beyond.empty() && built.estimate.point.effects.empty()) return built;
+AsBuilt answer_or_effect(const Problem& problem, AsBuilt built, const std::vector<Placed>& hints) {
+  if (!built.has_open_stage && built.beyond_tolerance.empty() &&
+      built.estimate.point.effects.empty())
+    return built;
   AsBuilt other{.uncertain = built.uncertain};
   other.uncertain.far.assign(other.uncertain.constants.size(), false);
   const Search search(problem.train, problem.held_out, other.uncertain, problem.options.search);
-  const Found base = search.from(built.estimate.point);
-  const bool explains = !keeps(base) && !base.train.point.effects.empty() && base.cost < built.cost;
+  const JudgedEstimate base = search.from(built.estimate.point);
+  const bool explains =
+      !has_open_stage(base) && !base.train.point.effects.empty() && base.cost < built.cost;
   const auto found = explains
                          ? std::optional(base)
                          : with_effect(search, base, hints, problem.options.search.most_effects,
-                                       keeps(base) || !is_valid(built));
+                                       has_open_stage(base) || !is_valid(built));
   if (!found) return built;
   complete(search, *found, problem, other);
   const double gain = base.cost - std::min(built.cost, other.cost);
   add_alternatives(built, other, gain), add_alternatives(other, built, gain);
   const auto causes = [](const AsBuilt& b) {
-    return b.beyond.size() + b.estimate.point.effects.size();
+    return b.beyond_tolerance.size() + b.estimate.point.effects.size();
   };
-  if (!built.keeps && causes(other) > causes(built)) return built;
-  const bool is_twin = built.beyond.size() == 1 && built.estimate.point.effects.empty() &&
-                       are_indistinguishable(built.cost, other.cost, gain);
-  return other.cost < built.cost && !other.keeps && !is_twin ? other : built;
+  if (!built.has_open_stage && causes(other) > causes(built)) return built;
+  const bool is_equivalent_constant = built.beyond_tolerance.size() == 1 &&
+                                      built.estimate.point.effects.empty() &&
+                                      are_indistinguishable(built.cost, other.cost, gain);
+  return other.cost < built.cost && !other.has_open_stage && !is_equivalent_constant ? other
+                                                                                     : built;
 }
 
 }  // namespace sim::estimation

@@ -14,18 +14,19 @@ namespace {
 
 using effects::Stage;
 
-/// A number of a motor or gearbox. Tolerances are chosen: catalogues state torque constant and resistance to 5 … 10 %,
-/// and seldom state friction.
+/// A number of a motor or gearbox. Tolerances are chosen: catalogues state torque constant and
+/// resistance to 5 … 10 %, and seldom state friction.
 struct MotorNumber {
   const char* name;
   Stage stage;
   double erp::MotorType::*number;
   double relative;  ///< tolerance / number
   const char* effect;
-  double far = default_far;
+  double far_sigma = default_far_sigma;
 };
-/// `far` of frictions and dampings: a nominal value near 0 carries no information; chosen.
-constexpr double of_far_friction = 500;
+/// `far_sigma` of frictions and dampings. It is large because their nominal value may be near 0;
+/// chosen.
+constexpr double friction_far_sigma = 500;
 constexpr MotorNumber motor_numbers[] = {
     {"resistance_ohm", Stage::motor, &erp::MotorType::resistance_ohm, 0.05, "motor_resistance"},
     {"torque_Nm_per_A", Stage::motor, &erp::MotorType::torque_Nm_per_A, 0.04,
@@ -36,18 +37,20 @@ constexpr MotorNumber motor_numbers[] = {
     {"rotor_inertia_kg_m2", Stage::gearbox, &erp::MotorType::rotor_inertia_kg_m2, 0.05,
      "gearbox_inertia"},
     {"gear_coulomb_Nm", Stage::gearbox, &erp::MotorType::gear_coulomb_Nm, 0.2, "gearbox_coulomb",
-     of_far_friction},
+     friction_far_sigma},
     {"gear_viscous_Nm_s_per_rad", Stage::gearbox, &erp::MotorType::gear_viscous_Nm_s_per_rad, 0.2,
-     "gearbox_viscous", of_far_friction},
+     "gearbox_viscous", friction_far_sigma},
     {"rotor_coulomb_Nm", Stage::gearbox, &erp::MotorType::rotor_coulomb_Nm, 0.2, "gearbox_coulomb",
-     of_far_friction},
+     friction_far_sigma},
     {"rotor_viscous_Nm_s_per_rad", Stage::gearbox, &erp::MotorType::rotor_viscous_Nm_s_per_rad, 0.2,
-     "gearbox_viscous", of_far_friction},
+     "gearbox_viscous", friction_far_sigma},
 };
 
+// Relative tolerances, then tolerances of zeros; chosen.
 constexpr double of_radius = 0.03, of_stiffness = 0.05, of_damping = 0.2, of_moment_arm = 0.03;
 constexpr double of_tension_gain = 0.02, of_current_gain = 0.02;
 constexpr double of_joint_friction = 0.2, of_mass = 0.04, of_com = 0.03, of_inertia = 0.06;
+constexpr double smallest_factor = 0.05;  // lower bound of a constant / nominal; chosen
 constexpr double line_zero_m = 3e-4, tension_zero_N = 0.1, current_zero_A = 0.01,
                  angle_zero_rad = 0.005;
 
@@ -81,7 +84,8 @@ effects::Bounds bounds_of(const char* type) {
   return effects::parameters(effect)[0].bounds;
 }
 
-/// Ratio of an effect's first parameter to the number: relative, or in units at the gearbox shaft.
+/// Ratio of an effect's first parameter to the change of a motor's number: relative, or for
+/// friction at the gearbox shaft.
 double motor_scale(const erp::MotorType& motor, double erp::MotorType::*number) {
   if (number == &erp::MotorType::gear_coulomb_Nm ||
       number == &erp::MotorType::gear_viscous_Nm_s_per_rad)
@@ -92,7 +96,8 @@ double motor_scale(const erp::MotorType& motor, double erp::MotorType::*number) 
   return 1 / (motor.*number);
 }
 
-/// Torque and back-EMF constant are one number of a motor, K_T i ω = K_E ω i: both are set.
+/// Sets a number of a motor. Torque and back-EMF constant are one number (K_T i ω = K_E ω i) and
+/// are set together.
 void set_number(erp::MotorType& motor, double erp::MotorType::*number, double value) {
   if (number == &erp::MotorType::torque_Nm_per_A)
     motor.back_emf_V_s_per_rad *= value / motor.torque_Nm_per_A;
@@ -101,7 +106,7 @@ void set_number(erp::MotorType& motor, double erp::MotorType::*number, double va
 
 void add_motor(std::vector<Constant>& all, const erp::Robot& robot, std::size_t a) {
   const erp::Actuator& actuator = robot.actuators[a];
-  for (const auto& [name, stage, number, relative, effect, far] : motor_numbers) {
+  for (const auto& [name, stage, number, relative, effect, far_sigma] : motor_numbers) {
     const double nominal = robot.motor_of(actuator).*number;
     if (!(nominal > 0)) continue;
     all.push_back({name,
@@ -109,7 +114,7 @@ void add_motor(std::vector<Constant>& all, const erp::Robot& robot, std::size_t 
                    actuator.name,
                    nominal,
                    relative * nominal,
-                   0.05 * nominal,
+                   smallest_factor * nominal,
                    {.line = true, .chain = a},
                    [on = actuator.name, number](erp::Robot& r, double value) {
                      set_number(effects::own_motor(r, actuator_of(r, on)), number, value);
@@ -117,7 +122,7 @@ void add_motor(std::vector<Constant>& all, const erp::Robot& robot, std::size_t 
                    effect,
                    motor_scale(robot.motor_of(actuator), number),
                    false,
-                   far});
+                   far_sigma});
   }
 }
 
@@ -126,12 +131,13 @@ void add_line(std::vector<Constant>& all, const erp::Robot& robot, std::size_t a
   const residuals::Reach line{.line = true, .chain = a};
   const auto number = [&](const char* name, Stage stage, double nominal, double relative,
                           const char* effect, auto set) {
-    const bool damps = std::string_view(name) == "damping_N_s_per_m";
+    const bool is_damping = std::string_view(name) == "damping_N_s_per_m";
     if (!(nominal > 0)) return;
     all.push_back(
-        {name, stage, actuator.name, nominal, relative * nominal, 0.05 * nominal, line,
+        {name, stage, actuator.name, nominal, relative * nominal, smallest_factor * nominal, line,
          [on = actuator.name, set](erp::Robot& r, double value) { set(actuator_of(r, on), value); },
-         effect, damps ? 1 : 1 / nominal, false, damps ? of_far_friction : default_far});
+         effect, is_damping ? 1 : 1 / nominal, false,
+         is_damping ? friction_far_sigma : default_far_sigma});
     all.back().in_series = std::string_view(name) == "stiffness_N_per_m";
   };
   number("radius_m", Stage::spindle, actuator.spindle.radius_m, of_radius, "spindle_radius",
@@ -173,7 +179,7 @@ void add_joint(std::vector<Constant>& all, const erp::Joint& joint) {
                      effect,
                      1,
                      false,
-                     of_far_friction});
+                     friction_far_sigma});
   };
   number("viscous_Nm_s_per_rad", joint.viscous_Nm_s_per_rad, &erp::Joint::viscous_Nm_s_per_rad,
          "joint_viscous");
@@ -194,8 +200,9 @@ void add_joint(std::vector<Constant>& all, const erp::Joint& joint) {
   }
 }
 
-/// Factors of the values of robot.xml, in whatever form it states them: of the mass with unchanged distribution, of the
-/// distance of its centre, of the moments of inertia about the centre.
+/// Adds factors of the mass with unchanged distribution, of the distance of its centre, and of the
+/// moments of inertia about the centre. They apply to every form in which robot.xml may describe a
+/// body.
 void add_body(std::vector<Constant>& all, const erp::Robot& robot, const std::string& body) {
   erp::Robot copy = robot;
   const erp::Vec3 com = erp::mass_of(body_of(copy, body)).com_m;
@@ -207,7 +214,7 @@ void add_body(std::vector<Constant>& all, const erp::Robot& robot, const std::st
                    body,
                    1,
                    tolerance,
-                   0.05,
+                   smallest_factor,
                    {.bones = true},
                    [body, scale](erp::Robot& r, double value) {
                      if (value == 1) return;
@@ -228,12 +235,13 @@ void add_body(std::vector<Constant>& all, const erp::Robot& robot, const std::st
 
 }  // namespace
 
-/// A step dv of v in series leads to v/(1 − dv/v), that is, 1/v changes by −dv/v²; linear beyond twice v.
-double Constant::moved(double x, double by) const {
-  const double from = value(x), relative = tolerance * by / from;
-  if (!in_series || !(from > 0)) return x + by;
-  const double to = relative < 0.5 ? 1 / (1 - relative) : 4 * relative;
-  return x + from * (to - 1) / tolerance;
+/// A step dv of a value v in series leads to v/(1 − dv/v): 1/v changes by −dv/v². Linear beyond 2
+/// v.
+double Constant::moved(double x, double step) const {
+  const double current = value(x), relative = tolerance * step / current;
+  if (!in_series || !(current > 0)) return x + step;
+  const double factor = relative < 0.5 ? 1 / (1 - relative) : 4 * relative;
+  return x + current * (factor - 1) / tolerance;
 }
 
 std::vector<Constant> constants_of(const erp::Robot& robot) {

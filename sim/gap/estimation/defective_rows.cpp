@@ -30,6 +30,7 @@ std::vector<Signal*> positions_of(Episode& e) {
   return all;
 }
 
+/// Whether each row repeats the sensors of the row before.
 std::vector<bool> repeats(Episode& e) {
   const auto sensors = sensors_of(e);
   std::vector<bool> same(e.rows, sensors.size() > 1);
@@ -43,17 +44,19 @@ std::vector<bool> repeats(Episode& e) {
   return same;
 }
 
-/// The smallest step of a signal.
+/// The smallest change of a signal between two rows; 0: constant.
 double step_of(const Signal& signal) {
-  double least = 0;
+  constexpr double rounding_error = 1e-12;
+  double smallest = 0;
   for (std::size_t k = 1; k < signal.size(); ++k)
     if (const double d = std::abs(signal[k] - signal[k - 1]);
-        d > 1e-12 && (least == 0 || d < least))
-      least = d;
-  return least;
+        d > rounding_error && (smallest == 0 || d < smallest))
+      smallest = d;
+  return smallest;
 }
 
-/// Whether a shaft turns by more than two of its steps per row, averaged over ten rows on both sides.
+/// Whether a shaft turns by more than two encoder steps per row, averaged over ten rows on both
+/// sides.
 class Turning {
  public:
   explicit Turning(const Episode& e) {
@@ -61,8 +64,8 @@ class Turning {
       if (!s.shaft_rad.empty()) shafts_.push_back({&s.shaft_rad, step_of(s.shaft_rad)});
   }
   bool at(std::size_t k) const {
-    constexpr std::size_t reach = 10;
-    constexpr double steps = 2;  // per row
+    constexpr std::size_t reach = 10;  // rows; chosen
+    constexpr double steps = 2;        // per row; chosen
     return std::ranges::any_of(shafts_, [&](const auto& shaft) {
       const Signal& x = *shaft.first;
       return k >= reach && k + reach < x.size() &&
@@ -76,13 +79,14 @@ class Turning {
 };
 
 /// Interpolates between two valid rows.
-void fill(Signal& signal, std::size_t from, std::size_t to) {
-  for (std::size_t k = from + 1; k < to; ++k)
-    signal[k] = signal[from] + (signal[to] - signal[from]) * double(k - from) / double(to - from);
+void fill(Signal& signal, std::size_t before, std::size_t after) {
+  for (std::size_t k = before + 1; k < after; ++k)
+    signal[k] = signal[before] +
+                (signal[after] - signal[before]) * double(k - before) / double(after - before);
 }
 
 void repair_repeated_rows(Episode& e) {
-  constexpr std::size_t longest = 10;  // rows; chosen
+  constexpr std::size_t longest_interpolated = 10;  // rows; chosen
   const auto same = repeats(e);
   for (std::size_t k = 1; k < e.rows; ++k) {
     if (!same[k]) continue;
@@ -93,7 +97,7 @@ void repair_repeated_rows(Episode& e) {
         std::fill(s.begin() + long(before) + 1, s.begin() + long(k), recording::not_taken);
     };
     for (Signal* s : positions_of(e))
-      if (k < e.rows && k - before <= longest + 1) fill(*s, before, k);
+      if (k < e.rows && k - before <= longest_interpolated + 1) fill(*s, before, k);
       else remove(*s);
     for (auto& s : e.actuators) remove(s.voltage_V), remove(s.current_A);
   }
@@ -126,28 +130,28 @@ std::vector<Filtered> filtered(const Episode& e) {
 }  // namespace
 
 RepeatedRows repeated_rows(std::span<const Episode> episodes) {
-  constexpr double least = 0.005;  // of the rows in which a shaft turns; chosen
-  double rows = 0, all = 0, turning = 0, lost = 0;
-  RepeatedRows found;
+  constexpr double smallest_fraction = 0.005;  // of the rows in which a shaft turns; chosen
+  double turning = 0, lost = 0;
+  RepeatedRows repeated;
   for (Episode e : episodes) {
     const auto same = repeats(e);
     const Turning turns(e);
     std::size_t run = 0;
     for (std::size_t k = 0; k < e.rows; ++k) {
-      ++rows, all += same[k];
       run = same[k] ? run + 1 : 0;
       if (!turns.at(k)) continue;
       ++turning, lost += same[k];
-      found.longest = std::max(found.longest, run);
+      repeated.longest = std::max(repeated.longest, run);
     }
   }
-  if (turning > 0 && lost > least * turning) found.share = lost / turning;
-  else found.longest = 0;
-  return found;
+  if (turning > 0 && lost > smallest_fraction * turning) repeated.fraction = lost / turning;
+  else repeated.longest = 0;
+  return repeated;
 }
 
 double row_jitter_s(std::span<const Episode> episodes) {
-  constexpr double of_filter = 35.0 / 18, clear = 6, least_s = 1e-4;  // the last two chosen
+  constexpr double filter_gain = 35.0 / 18;
+  constexpr double clear_sigmas = 6, smallest_jitter_s = 1e-4;  // chosen
   double numerator = 0, error = 0, denominator = 0;
   for (const Episode& e : episodes) {
     const auto all = filtered(e);
@@ -160,20 +164,20 @@ double row_jitter_s(std::span<const Episode> episodes) {
           numerator += product, error += product * product, denominator += weight * weight;
         }
   }
-  if (!(denominator > 0) || !(numerator > clear * std::sqrt(error))) return 0;
-  const double spread_s = std::sqrt(12 * numerator / (of_filter * denominator));
-  return spread_s > least_s ? spread_s : 0;
+  if (!(denominator > 0) || !(numerator > clear_sigmas * std::sqrt(error))) return 0;
+  const double spread_s = std::sqrt(12 * numerator / (filter_gain * denominator));
+  return spread_s > smallest_jitter_s ? spread_s : 0;
 }
 
 void repair_defective_rows(std::vector<Episode>& episodes, std::vector<std::string>& remarks) {
   const RepeatedRows repeated = repeated_rows(episodes);
-  if (repeated.share > 0) {
-    for (Episode& e : episodes) repair_repeated_rows(e), e.repeated_share = repeated.share;
+  if (repeated.fraction > 0) {
+    for (Episode& e : episodes) repair_repeated_rows(e), e.repeated_fraction = repeated.fraction;
     remarks.push_back(
         fmt::format("{:.3g} % of the rows repeat the row before while a shaft turns, up to {} in "
                     "succession: reports were lost; angles and tensions are interpolated, voltages "
                     "and currents of these rows ignored",
-                    100 * repeated.share, repeated.longest));
+                    100 * repeated.fraction, repeated.longest));
   }
   const double spread_s = row_jitter_s(episodes);
   if (spread_s == 0) return;

@@ -5,30 +5,33 @@
 
 #include "sim/gap/residuals/episode.hpp"
 
-/// Rows with defects caused by a bus, detected from the sensors alone: lost reports, in whose place the last one is
-/// repeated, and rows sampled a little later than their time stamp.
+/// Defects of rows that a bus causes, detected from the sensors: repetitions of the last report in
+/// place of a lost one, and rows that were sampled a little after their time stamp.
 namespace sim::estimation {
 
 struct RepeatedRows {
-  double share = 0;         ///< of the rows in which a shaft turns; 0: none
+  double fraction = 0;      ///< of the rows in which a shaft turns; 0: no repeated rows
   std::size_t longest = 0;  ///< longest sequence of repeated rows
 };
 
-/// Detects rows in which no sensor differs from the row before, while a shaft turns by more than two of its steps per
-/// row.
+/// Detects rows in which no sensor differs from the row before although a shaft turns by more than
+/// two encoder steps per row.
 RepeatedRows repeated_rows(std::span<const residuals::Episode> episodes);
 
-/// The largest delay of rows after their time stamps, for delays uniform between 0 and it; 0: none detected.
+/// Returns the largest delay of rows after their time stamps in s, for uniformly distributed
+/// delays; 0: not detected.
 ///
 ///   e_k = x_k − (4 (x_{k−1} + x_{k+1}) − (x_{k−2} + x_{k+2}))/6     of each shaft and joint
 ///   var δ = Σ e_a e_b ω_a ω_b / (35/18 Σ ω_a² ω_b²)                over pairs of sensors, a ≠ b
 ///
-/// A delay δ that all sensors share shifts each by its speed ω; the noise of the sensors is independent. 35/18: factor
-/// of the filter on the variance of white noise. Detected only above six standard errors.
+/// A common delay δ shifts the reading x of each sensor by δ ω, ω: its speed. The noise of the
+/// sensors is independent. 35/18: gain of the filter for the variance of white noise. A delay is
+/// detected only above six standard errors.
 double row_jitter_s(std::span<const residuals::Episode> episodes);
 
-/// Interpolates angles and tensions in up to ten successive repeated rows; in longer sequences, and for voltages and
-/// currents, the samples become NaN. Stores both defects in the episodes, and adds a line to `remarks` for each.
+/// Interpolates angles and tensions in up to ten successive repeated rows. In longer sequences, and
+/// for voltages and currents, the samples become NaN. Stores fraction and jitter in the episodes,
+/// and adds a line to `remarks` for each defect.
 void repair_defective_rows(std::vector<residuals::Episode>& episodes,
                            std::vector<std::string>& remarks);
 

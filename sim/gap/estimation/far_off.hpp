@@ -1,16 +1,19 @@
 #pragma once
 #include "sim/gap/estimation/search.hpp"
 
-/// Which few constants are far off, while all others are within their tolerances.
+/// Selects the few constants that are far off, while all others are within their tolerances:
 ///
-///   min over F   min over x [data(x) + Σ_{k not in F} x_k² + Σ_{k in F} (x_k²/20² + price_k)] + log det A
+///   min over F   min over x [data(x) + Σ_{k not in F} x_k² + Σ_{k in F} (x_k²/s_k² + price_k)]
+///                + log det A
 ///
-/// A: half the Hessian of the bracket. log det A (Laplace's approximation of the evidence): a constant that the data
-/// hardly determine gains nothing from a wider prior.
+/// F: set of constants far off; s_k: far_sigma; data: linear model of an estimate; A: half the
+/// Hessian of the bracket. log det A is Laplace's approximation of the evidence: a wider prior of a
+/// constant that the data hardly determine gains nothing.
 ///
-/// Recordings often determine only a product of two constants, and a prior alone then divides the deviation between
-/// them: neither is right. data: the linear model of an estimate. Constants are added to F one at a time while the cost
-/// falls; then each is replaced if another costs less, and removed if it costs more than it saves.
+/// Recordings often determine only a product of two constants. A normal prior then divides the
+/// deviation between them, and both are wrong. Constants are added to F one at a time while the
+/// cost falls. Then a constant is replaced if another costs less, and removed if the cost without
+/// it is lower.
 /// Source: spike and slab, George and McCulloch 1993; here the most probable set by greedy search.
 namespace sim::estimation {
 
@@ -21,15 +24,17 @@ struct Deviation {
 };
 
 struct FarOff {
-  std::vector<Deviation> all;                   ///< the largest first
-  std::vector<std::vector<Deviation>> instead;  ///< for each, alternatives that cost little more
+  std::vector<Deviation> all;  ///< the largest first
+  std::vector<std::vector<Deviation>>
+      alternatives;  ///< for each, alternatives that cost little more
 };
 
 /// The deviation as the effect of the library that represents it.
-Sized as_effect(const Constant& constant, const Deviation& deviation);
+SizedEffect as_effect(const Constant& constant, const Deviation& deviation);
 
-/// Whether a constant that was estimated with the wide prior may stay in F. Without it F costs less if
-/// x² (1 − 1/far²) < price − log far², for log det A falls by at most log far².
+/// Whether a constant that was estimated with the wide prior may stay in F. Without it F costs less
+/// if x² (1 − 1/far_sigma²) < price − log far_sigma², because log det A falls by at most log
+/// far_sigma².
 bool is_worth_far(const Constant& constant, double x);
 
 FarOff far_off(const Uncertain& uncertain, const Estimate& estimate);

@@ -20,18 +20,21 @@ std::vector<effects::Placed> initial_guesses(
       if (recording->judged(k) && !std::isnan(angle[k]))
         low = std::min(low, angle[k]), high = std::max(high, angle[k]);
   }
-  std::vector<effects::Placed> all;
-  for (const double earlier_rad : {0.0, 0.01, 0.02, 0.035, 0.05})
-    for (const int side : {1, 2, 3}) {
+  std::vector<effects::Placed> guesses;
+  for (const double earlier_rad : {0.0, 0.01, 0.02, 0.035, 0.05})  // chosen
+    for (const int side : {1, 2, 3}) {                             // bits: at min_rad, at max_rad
       effects::JointEarlyStop stop = std::get<effects::JointEarlyStop>(neutral.effect);
-      const double most = effects::parameters(all.emplace_back(neutral).effect)[0].bounds.high;
+      const double max_rad_from_stop =
+          effects::parameters(guesses.emplace_back(neutral).effect)[0].bounds.high;
       if (side & 1)
-        stop.from_min_rad = std::clamp(low - joints[j].min_rad + earlier_rad, 0.0, most);
+        stop.from_min_rad =
+            std::clamp(low - joints[j].min_rad + earlier_rad, 0.0, max_rad_from_stop);
       if (side & 2)
-        stop.from_max_rad = std::clamp(joints[j].max_rad - high + earlier_rad, 0.0, most);
-      all.back().effect = stop;
+        stop.from_max_rad =
+            std::clamp(joints[j].max_rad - high + earlier_rad, 0.0, max_rad_from_stop);
+      guesses.back().effect = stop;
     }
-  return all;
+  return guesses;
 }
 
 }  // namespace sim::estimation

@@ -6,9 +6,10 @@
 
 namespace sim::estimation {
 
-/// Initial guesses of an effect that the gradient at its neutral value does not lead to. For the early stop of a
-/// revolute joint: either stop, or both, at the extreme angles of the recordings and up to 0.05 rad earlier. Empty for
-/// all other effects. `recordings`: episodes of `nominal`, by their judged rows.
+/// Returns initial guesses of an effect that a gradient descent from its neutral value does not
+/// find. For the early stop of a revolute joint: one stop or both, at the extreme angles of the
+/// recordings or up to 0.05 rad before. Empty for all other effects. `recordings`: episodes of
+/// `nominal`; only their judged rows are used.
 std::vector<effects::Placed> initial_guesses(
     const effects::Placed& neutral, const erp::Robot& nominal,
     const std::vector<const residuals::Episode*>& recordings);

@@ -4,18 +4,19 @@
 
 #include "sim/gap/residuals/episode.hpp"
 
-/// Limits of robot.xml: at a limit the recorded command is not what acted.
+/// Limits of robot.xml. At a limit the recorded command differs from the value that acted.
 ///
-///   |V| > supply            the supply voltage acts
-///   |i| ≥ 0.97 i_max        and the command would drive more: the driver limits i; neither V nor the current between
-///                           rows is known
-///   converter at its limit  the reading is a bound, not a value
+///   |V| > supply             the supply voltage acts
+///   |i| ≥ 0.97 i_max and     the driver limits i; V and i between rows are unknown
+///   |V − K_E N ω|/R > 1.1 i_max
+///   converter at its limit   the reading is a bound, not a value
 ///
-/// A voltage above the supply is replaced by the supply. Other such samples become NaN: stages that need them are not
-/// judged there, other stages are.
+/// A voltage above the supply is replaced by the supply. The other samples become NaN; only stages
+/// that need them are not judged there.
 namespace sim::estimation {
 
-/// Adds a line to `remarks` for each limit that a recording reaches.
+/// Applies the limits to all episodes. Adds a line to `remarks` for each limit that a recording
+/// reaches.
 void apply_limits(const erp::Robot& robot, std::vector<residuals::Episode>& episodes,
                   std::vector<std::string>& remarks);
 

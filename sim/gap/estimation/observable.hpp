@@ -6,8 +6,9 @@
 
 namespace sim::estimation {
 
-/// False if the drive lacks the sensor, or if no recording excites what distinguishes the law from a simpler one, such
-/// as both directions of a shaft for friction that differs with the direction.
+/// Returns false if the effect is one of a sensor that the drive lacks, or if no recording
+/// distinguishes its law from a simpler one. For friction that depends on the direction, the shaft
+/// must turn in both directions.
 bool is_observable(const effects::Placed& effect, const erp::Robot& robot,
                    std::span<const residuals::Episode> recordings);
 

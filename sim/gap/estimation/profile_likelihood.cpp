@@ -7,19 +7,19 @@
 namespace sim::estimation {
 namespace {
 
-/// The distance that an unknown may move towards `bound` before the cost, −2 log likelihood, rises by the 95 % quantile
-/// of χ² with one degree of freedom. All other unknowns keep their values.
+/// The distance d from the estimate of unknown k towards `bound` at which the cost, −2 log
+/// likelihood, has risen by the 95 % quantile of χ² with one degree of freedom.
 double half_interval(const ResidualVector& residuals, const Unknowns& at, const Estimate& e,
                      std::size_t k, double bound) {
-  constexpr double rise = 3.84;
+  constexpr double rise = 3.84;  // 95 % quantile
   constexpr int halvings = 12;
   const residuals::Stages stages(at.robot());
-  const double here = e.weight.dot(e.z.cwiseAbs2());
+  const double minimum = e.weight.dot(e.z.cwiseAbs2());
   const auto costs_more = [&](double value) {
     const erp::Robot robot = at.with(k, value).robot();
     const Eigen::VectorXd z =
         residuals.z(residuals.explain(robot, e.explained, at.reach(k, stages)));
-    return e.weight.dot(z.cwiseAbs2()) > here + rise;
+    return e.weight.dot(z.cwiseAbs2()) > minimum + rise;
   };
   if (!costs_more(bound)) return std::abs(bound - at.value(k));
   double within = at.value(k), beyond = bound;
@@ -33,16 +33,18 @@ double half_interval(const ResidualVector& residuals, const Unknowns& at, const 
 }  // namespace
 
 void set_profile_variances(const ResidualVector& residuals, const Unknowns& at, Estimate& e) {
-  constexpr double far = std::numeric_limits<double>::max();
+  constexpr double beyond_bounds = std::numeric_limits<double>::max();
+  constexpr double half_interval_sigmas = 1.96;  // of 95 %
   for (std::size_t k = at.constants(); k < at.count(); ++k) {
     if (at.is_logarithm(k)) continue;
-    const double low = at.with(k, -far).value(k), high = at.with(k, far).value(k);
+    const double low = at.with(k, -beyond_bounds).value(k),
+                 high = at.with(k, beyond_bounds).value(k);
     if (e.sigma(k) < high - low) continue;
-    const double farther =
+    const double larger_distance =
         std::max(half_interval(residuals, at, e, k, low), half_interval(residuals, at, e, k, high));
     const auto n = Eigen::Index(k);
     e.covariance.row(n).setZero(), e.covariance.col(n).setZero();
-    e.covariance(n, n) = std::pow(farther / 1.96, 2);
+    e.covariance(n, n) = std::pow(larger_distance / half_interval_sigmas, 2);
   }
 }
 

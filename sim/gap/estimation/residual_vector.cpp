@@ -21,10 +21,10 @@ struct Changes {
   std::vector<double> squares = {};
 
   double rms() const { return root_of_mean(squares.end()); }
-  /// Without the hundredth that changes most: a window that becomes judged is no noise.
+  /// Without the largest 1 %: the change of a window that becomes judged is not noise.
   double trimmed_rms() {
-    constexpr double part = 0.99;  // chosen
-    const auto end = squares.begin() + std::ptrdiff_t(part * double(squares.size()));
+    constexpr double quantile = 0.99;  // chosen
+    const auto end = squares.begin() + std::ptrdiff_t(quantile * double(squares.size()));
     if (end != squares.end()) std::ranges::nth_element(squares, end);
     return root_of_mean(end);
   }
@@ -72,8 +72,8 @@ ResidualVector::ResidualVector(const erp::Robot& nominal,
     : episodes_(episodes) {
   for (const residuals::Episode& episode : episodes)
     disturbed_.push_back(residuals::resampled_noise(episode, nominal, seed));
-  Explained bare = explain(nominal, threads);
-  nominal_ = bare.real;
+  Explained nominal_explained = explain(nominal, threads);
+  nominal_ = nominal_explained.real;
   for (const residuals::Explanation& e : nominal_) {
     stages_ = e.residuals.size();
     for (std::size_t r = 0; r < stages_; ++r) {
@@ -81,9 +81,9 @@ ResidualVector::ResidualVector(const erp::Robot& nominal,
       size_ += blocks_.back().count;
     }
   }
-  floors_ = floors(bare);
-  count_independent(bare);
-  cut_disturbed(nominal, bare);
+  floors_ = floors(nominal_explained);
+  count_independent(nominal_explained);
+  cut_disturbed(nominal, nominal_explained);
 }
 
 void ResidualVector::count_independent(const Explained& nominal) {
@@ -96,7 +96,7 @@ void ResidualVector::count_independent(const Explained& nominal) {
     for (std::size_t k = 0; k < real.size(); ++k)
       if (const double change = disturbed[k] - real[k]; !std::isnan(change))
         noise.push_back(change);
-    independent_[r] += double(noise.size()) / correlated(noise);
+    independent_[r] += double(noise.size()) / correlation_length(noise);
   }
 }
 
@@ -112,29 +112,31 @@ std::vector<double> ResidualVector::floors(const Explained& explained) const {
   return all;
 }
 
-/// Replaces whole episodes by their first parts, if every stage has enough windows in them.
+/// Replaces the disturbed episodes by their first parts if every stage has enough windows in them.
 void ResidualVector::cut_disturbed(const erp::Robot& robot, const Explained& nominal) {
-  constexpr double part = 1 / 3.0, enough = part / 2;  // of rows, and of windows; chosen
-  const std::vector<Changes> whole = changes_by_stage(nominal);
+  constexpr double part = 1 / 3.0;            // of the rows; chosen
+  constexpr double least_windows = part / 2;  // of the windows; chosen
+  const std::vector<Changes> whole_changes = changes_by_stage(nominal);
   std::vector<residuals::Episode> first = disturbed_;
   Explained cut_nominal{nominal.real, {}};
   for (std::size_t e = 0; e < first.size(); ++e) {
-    const std::size_t from = first[e].judged_from,
-                      until = std::min(first[e].judged_until, first[e].rows);
-    cut(first[e], from + std::size_t(part * double(until - std::min(from, until))));
+    const std::size_t first_row = first[e].judged_from,
+                      last_row = std::min(first[e].judged_until, first[e].rows);
+    cut(first[e], first_row + std::size_t(part * double(last_row - std::min(first_row, last_row))));
     cut_nominal.disturbed.push_back(residuals::Stages(robot).explain(first[e]));
   }
-  std::vector<Changes> of_first = changes_by_stage(cut_nominal);
-  const auto is_seen = [&](std::size_t s) {
-    return double(of_first[s].squares.size()) >= enough * double(whole[s].squares.size());
+  std::vector<Changes> first_changes = changes_by_stage(cut_nominal);
+  const auto has_enough_windows = [&](std::size_t s) {
+    return double(first_changes[s].squares.size()) >=
+           least_windows * double(whole_changes[s].squares.size());
   };
-  if (std::ranges::all_of(std::views::iota(std::size_t(0), stages_), is_seen))
+  if (std::ranges::all_of(std::views::iota(std::size_t(0), stages_), has_enough_windows))
     disturbed_ = std::move(first);
-  else of_first = whole;
-  for (Changes& c : of_first) first_floors_.push_back(c.trimmed_rms());
+  else first_changes = whole_changes;
+  for (Changes& c : first_changes) first_floors_.push_back(c.trimmed_rms());
 }
 
-std::vector<double> ResidualVector::raised(const Explained& explained) const {
+std::vector<double> ResidualVector::floor_ratio(const Explained& explained) const {
   std::vector<double> all(stages_, 1.0);
   std::vector<Changes> changes = changes_by_stage(explained);
   for (std::size_t s = 0; s < stages_; ++s)
@@ -167,43 +169,44 @@ Explained ResidualVector::explain(const erp::Robot& robot, const Explained& base
 
 namespace {
 
-/// A residual in units of its noise. In a friction band the sign is that of the nominal robot's residual: within a band
-/// a residual has no sign, and a sign that differs between robots would be a jump.
+/// A residual in units of its noise. A residual within a friction band has no sign. It gets the
+/// sign of the nominal robot's residual, because a sign that differs between robots would be a
+/// jump.
 double with_fixed_sign(const residuals::Residual& nominal, const residuals::Residual& r,
                        std::size_t window, double floor) {
-  const double z = residuals::normalized(r, window, floor), was = nominal.value[window];
+  const double z = residuals::normalized(r, window, floor), reference = nominal.value[window];
   if (!residuals::banded(nominal, window) && !residuals::banded(r, window)) return z;
-  return std::copysign(z, was != 0 ? was : window % 2 ? -1 : 1);
+  return std::copysign(z, reference != 0 ? reference : window % 2 ? -1 : 1);
 }
 
 }  // namespace
 
 VectorXd ResidualVector::z(const Explained& explained) const {
   VectorXd z = VectorXd::Zero(size_);
-  const auto raised = this->raised(explained);
+  const auto floor_ratio = this->floor_ratio(explained);
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const std::size_t e = b / stages_, r = b % stages_;
-    const auto &was = nominal_[e].residuals[r], &is = explained.real[e].residuals[r];
-    const double floor = floors_[b] * raised[r];
-    for (std::size_t k = 0; k < was.value.size() && floor > 0; ++k) {
-      if (std::isnan(was.value[k])) continue;
-      const auto& used = std::isnan(is.value[k]) ? was : is;
-      z[blocks_[b].first + Index(k)] = with_fixed_sign(was, used, k, floor);
+    const auto &nominal = nominal_[e].residuals[r], &actual = explained.real[e].residuals[r];
+    const double floor = floors_[b] * floor_ratio[r];
+    for (std::size_t k = 0; k < nominal.value.size() && floor > 0; ++k) {
+      if (std::isnan(nominal.value[k])) continue;
+      const auto& available = std::isnan(actual.value[k]) ? nominal : actual;
+      z[blocks_[b].first + Index(k)] = with_fixed_sign(nominal, available, k, floor);
     }
   }
   return z;
 }
 
-double correlated(std::span<const double> series) {
-  constexpr std::size_t longest_lag = 50;  // windows, one second
-  constexpr double small = 0.05;           // correlation; chosen
+double correlation_length(std::span<const double> series) {
+  constexpr std::size_t longest_lag = 50;  // windows: one second
+  constexpr double negligible = 0.05;      // correlation; chosen
   double square = 0;
   for (const double x : series) square += x * x;
   double sum = 1;
   for (std::size_t lag = 1; lag < std::min(longest_lag, series.size()) && square > 0; ++lag) {
     double product = 0;
     for (std::size_t k = lag; k < series.size(); ++k) product += series[k] * series[k - lag];
-    if (product < small * square) break;
+    if (product < negligible * square) break;
     sum += 2 * product / square;
   }
   return sum;

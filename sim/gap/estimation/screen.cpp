@@ -23,12 +23,12 @@ using Eigen::VectorXd;
 struct StepBounds {
   std::vector<double> low = {}, high = {};
 
-  bool leaves(const VectorXd& step, Index n) const {
+  bool is_exceeded(const VectorXd& step, Index n) const {
     return step[n] < low[std::size_t(n)] || step[n] > high[std::size_t(n)];
   }
-  bool leaves(const VectorXd& step) const {
+  bool is_exceeded(const VectorXd& step) const {
     for (Index n = 0; n < step.size(); ++n)
-      if (leaves(step, n)) return true;
+      if (is_exceeded(step, n)) return true;
     return false;
   }
 };
@@ -38,48 +38,49 @@ struct Basis {
   const Estimate& estimate;
   const std::vector<bool>& open;
   RemainingResidual remaining;
-  VectorXd moved;   ///< last step of the unknowns without the effect
-  double cost = 0;  ///< after that step
+  VectorXd last_step;  ///< of the unknowns without the effect
+  double cost = 0;     ///< after that step
 };
 
 namespace {
 
-/// Whether a change affects an open stage. True if no stage is open.
-bool changes(const ResidualVector& residuals, const MatrixXd& change,
-             const std::vector<bool>& open) {
-  constexpr double share = 1e-3;  // smallest share of the change; chosen
+/// Whether a change of z affects an open stage. True if no stage is open.
+bool affects_open_stage(const ResidualVector& residuals, const MatrixXd& change,
+                        const std::vector<bool>& open) {
+  constexpr double smallest_fraction = 1e-3;  // of the change; chosen
   if (std::ranges::count(open, true) == 0) return true;
   double of_open = 0;
   for (const Block& b : residuals.blocks())
     if (open[b.stage]) of_open += change.middleRows(b.first, b.count).squaredNorm();
-  return of_open > share * share * change.squaredNorm();
+  return of_open > smallest_fraction * smallest_fraction * change.squaredNorm();
 }
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-/// The step of the sizes to the minimum of stepᵀ own step/2 − slopeᵀ step. A size stays unchanged if the unknowns that
-/// are already estimated have the same effect, or if it would leave its bounds. `whole`: as `own`, without the response
-/// of the estimated unknowns.
-VectorXd step_within(const MatrixXd& own, const MatrixXd& whole, const VectorXd& slope,
+/// The step of the sizes to the minimum of stepᵀ G step/2 − slopeᵀ step. A size is not changed if
+/// the unknowns that are already estimated have the same effect, or if it would leave its bounds.
+/// `without_response`: G without the response of the estimated unknowns.
+VectorXd step_within(const MatrixXd& g, const MatrixXd& without_response, const VectorXd& slope,
                      const StepBounds& bounds) {
-  constexpr double copy = 1e-8, ridge = 1e-6;  // relative; chosen
+  constexpr double same_effect = 1e-8, ridge = 1e-6;  // relative; chosen
   std::vector<Index> free;
-  for (Index n = 0; n < own.rows(); ++n)
-    if (own(n, n) > copy * whole(n, n)) free.push_back(n);
+  for (Index n = 0; n < g.rows(); ++n)
+    if (g(n, n) > same_effect * without_response(n, n)) free.push_back(n);
   while (!free.empty()) {
-    MatrixXd of_free = own(free, free);
-    for (Index n = 1; n < of_free.rows(); ++n) of_free(n, n) *= 1 + ridge;
-    const VectorXd solved = of_free.ldlt().solve(slope(free));
-    VectorXd step = VectorXd::Zero(own.rows());
+    MatrixXd g_free = g(free, free);
+    for (Index n = 1; n < g_free.rows(); ++n) g_free(n, n) *= 1 + ridge;
+    const VectorXd solved = g_free.ldlt().solve(slope(free));
+    VectorXd step = VectorXd::Zero(g.rows());
     step(free) = solved;
-    if (std::erase_if(free, [&](Index n) { return bounds.leaves(step, n); }) == 0) return step;
+    if (std::erase_if(free, [&](Index n) { return bounds.is_exceeded(step, n); }) == 0) return step;
   }
-  return VectorXd::Zero(own.rows());
+  return VectorXd::Zero(g.rows());
 }
 
 }  // namespace
 
-/// Cost by the linear model of `base` after a step of its unknowns and a change of z by an effect.
+/// Cost by the linear model of `base` after a step of its unknowns (`moved`) and a change of z by
+/// an effect (`changed`).
 double Screen::cost_at(const Estimate& base, const RemainingResidual& remaining,
                        const VectorXd& changed, const VectorXd& moved) const {
   Point after = base.point;
@@ -90,8 +91,8 @@ double Screen::cost_at(const Estimate& base, const RemainingResidual& remaining,
          prior_cost(uncertain_, after);
 }
 
-/// The best of 1, 2, 4 and 8 times a step, and its gain. The quadratic model overweights windows that the cost cuts
-/// off.
+/// The best of 1, 2, 4 and 8 times a step, and its gain. The quadratic model overweights windows
+/// that the cost limits.
 std::pair<double, VectorXd> Screen::best_multiple(const Basis& basis, const Sensitivities& all,
                                                   const MatrixXd& shared, const VectorXd& step,
                                                   const StepBounds& bounds) const {
@@ -99,54 +100,54 @@ std::pair<double, VectorXd> Screen::best_multiple(const Basis& basis, const Sens
   std::pair best{0.0, step};
   for (int n = 0; n <= doublings; ++n) {
     const VectorXd by = std::exp2(n) * step;
-    if (n > 0 && bounds.leaves(by)) break;
+    if (n > 0 && bounds.is_exceeded(by)) break;
     const double gain = basis.cost - cost_at(basis.estimate, basis.remaining, all.d * by,
-                                             basis.moved - shared * by);
+                                             basis.last_step - shared * by);
     if (n > 0 && !(gain > best.first)) break;
     best = {gain, by};
   }
   return best;
 }
 
-/// For one shape, the values of highest score, and the score.
+/// For one shape, the values with the highest score, and the score.
 Candidate Screen::score(const Basis& basis, const Sensitivities& all) const {
   const Estimate& base = basis.estimate;
   const MatrixXd wd = base.weight.asDiagonal() * all.d;
   const MatrixXd shared = base.covariance * (base.jacobian.transpose() * wd);
-  MatrixXd own = all.d.transpose() * wd;
-  const MatrixXd whole = own;
-  own -= wd.transpose() * base.jacobian * shared;
+  MatrixXd g = all.d.transpose() * wd;
+  const MatrixXd without_response = g;
+  g -= wd.transpose() * base.jacobian * shared;
   Candidate candidate{all.shape, 0};
   const auto values = effects::parameters(candidate.start.effect);
   StepBounds bounds;
-  bool places = false;
+  bool has_position = false;
   for (std::size_t n = 0; n < all.sizes.size(); ++n) {
     const effects::Parameter& p = values[all.sizes[n]];
-    const bool like = is_like(p, values[all.sizes[0]]);
-    places |= !like;
-    bounds.low.push_back(like ? (p.bounds.low - *p.value) / all.perturbation[n] : -unlimited);
-    bounds.high.push_back(like ? (p.bounds.high - *p.value) / all.perturbation[n] : unlimited);
+    const bool is_size = is_like(p, values[all.sizes[0]]);
+    has_position |= !is_size;
+    bounds.low.push_back(is_size ? (p.bounds.low - *p.value) / all.perturbation[n] : -unlimited);
+    bounds.high.push_back(is_size ? (p.bounds.high - *p.value) / all.perturbation[n] : unlimited);
   }
   VectorXd step = step_within(
-      own, whole, -(wd.transpose() * base.z - shared.transpose() * base.gradient), bounds);
-  if (step.isZero(0) || (places && step[0] == 0)) return candidate;
+      g, without_response, -(wd.transpose() * base.z - shared.transpose() * base.gradient), bounds);
+  if (step.isZero(0) || (has_position && step[0] == 0)) return candidate;
   std::tie(candidate.score, step) = best_multiple(basis, all, shared, step, bounds);
-  candidate.others = basis.moved - shared * step;
+  candidate.others = basis.last_step - shared * step;
   for (std::size_t n = 0; n < all.sizes.size(); ++n) {
     const effects::Parameter& p = values[all.sizes[n]];
-    const bool place = !is_like(p, values[all.sizes[0]]);
-    const double by = place ? step[Index(n)] / step[0] : step[Index(n)];
+    const bool is_position = !is_like(p, values[all.sizes[0]]);
+    const double by = is_position ? step[Index(n)] / step[0] : step[Index(n)];
     *p.value = std::clamp(*p.value + by * all.perturbation[n], p.bounds.low, p.bounds.high);
   }
   return candidate;
 }
 
-/// Score of an initial guess at its values, without a step; the unknowns respond linearly.
+/// Score of an initial guess without a step of its values. The unknowns respond linearly.
 Candidate Screen::score_guess(const Basis& basis, const Placed& guess,
                               const VectorXd& changed) const {
   const Estimate& base = basis.estimate;
-  const VectorXd others = basis.moved - base.covariance * (base.jacobian.transpose() *
-                                                           base.weight.cwiseProduct(changed));
+  const VectorXd others = basis.last_step - base.covariance * (base.jacobian.transpose() *
+                                                               base.weight.cwiseProduct(changed));
   return {guess, basis.cost - cost_at(base, basis.remaining, changed, others), others};
 }
 
@@ -167,22 +168,23 @@ Candidate Screen::best_shape(const Basis& basis, const Placed& neutral) const {
   for (const residuals::Episode& e : train_.residuals().episodes()) recordings.push_back(&e);
   for (const Placed& guess : initial_guesses(neutral, uncertain_.nominal, recordings)) {
     const VectorXd change = z_with(guess) - base.z;
-    if (!changes(train_.residuals(), change, basis.open)) continue;
-    if (Candidate one = score_guess(basis, guess, change); one.score > best.score)
-      best = std::move(one);
+    if (!affects_open_stage(train_.residuals(), change, basis.open)) continue;
+    if (Candidate candidate = score_guess(basis, guess, change); candidate.score > best.score)
+      best = std::move(candidate);
   }
   const auto sizes = sizes_of(neutral);
   std::vector<double> by = first_perturbations(neutral, sizes);
   for (const Placed& shape :
        shaped(neutral, periods_of(neutral, robot, train_.residuals(), base))) {
-    std::vector<Sensitivities> tried = secants(shape, sizes, changed_by);
-    tried.push_back(sensitivities(shape, sizes, by, changed_by));
-    std::erase_if(tried, [&](const Sensitivities& all) {
-      return !changes(train_.residuals(), all.d, basis.open);
+    std::vector<Sensitivities> shapes = secants(shape, sizes, changed_by);
+    shapes.push_back(sensitivities(shape, sizes, by, changed_by));
+    std::erase_if(shapes, [&](const Sensitivities& all) {
+      return !affects_open_stage(train_.residuals(), all.d, basis.open);
     });
-    if (tried.empty()) break;
-    for (const Sensitivities& all : tried)
-      if (Candidate one = score(basis, all); one.score > best.score) best = std::move(one);
+    if (shapes.empty()) break;
+    for (const Sensitivities& all : shapes)
+      if (Candidate candidate = score(basis, all); candidate.score > best.score)
+        best = std::move(candidate);
   }
   return best;
 }
@@ -219,7 +221,7 @@ std::vector<Candidate> Screen::candidates(const Estimate& base,
                                           const std::vector<bool>& open) const {
   Basis basis{base, open, remaining_residual(train_.residuals(), base.explained, base.z),
               -(base.covariance * base.gradient)};
-  basis.cost = cost_at(base, basis.remaining, VectorXd::Zero(base.z.size()), basis.moved);
+  basis.cost = cost_at(base, basis.remaining, VectorXd::Zero(base.z.size()), basis.last_step);
   std::vector<Placed> all;
   for (const effects::AnyEffect& effect : effects::library()) {
     const effects::About& about = effects::about(effect);

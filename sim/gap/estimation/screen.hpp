@@ -5,20 +5,21 @@
 
 #include "sim/gap/estimation/remaining_residual.hpp"
 
-/// Which effects of the library could explain the remaining residual of an estimate:
+/// Scores the effects of the library that could explain the remaining residual of an estimate:
 ///
 ///   score = decrease of the cost by the step of the effect's parameters, with the response of the constants
 ///   step  = −G⁻¹ g     g = Dᵀ W z − (Jᵀ W D)ᵀ H⁻¹ ∇,   G = Dᵀ W D − (Jᵀ W D)ᵀ H⁻¹ (Jᵀ W D)
 ///
-/// D: ∂z/∂(parameters of the effect); J, H and ∇: derivatives, Hessian and gradient of the unknowns that are already
-/// estimated (orthogonal least squares: Chen, Billings, Luo 1989). All stages and recordings take part. Parameters that
-/// shape a law (speeds, time constants) are scanned; periods: periods.hpp.
+/// D: ∂z/∂(parameters of the effect); J, H and ∇: derivatives, Hessian and gradient of the unknowns
+/// that are already estimated (orthogonal least squares: Chen, Billings, Luo 1989). All stages and
+/// recordings are used. Parameters that shape a law (speeds, time constants) are scanned; periods:
+/// periods.hpp.
 namespace sim::estimation {
 
 struct Candidate {
   effects::Placed start;  ///< with the values of highest score
   double score = 0;
-  Eigen::VectorXd others = {};  ///< step of the unknowns of the estimate in response
+  Eigen::VectorXd others = {};  ///< step of the unknowns of the estimate in response to the effect
 };
 
 struct Sensitivities;
@@ -32,12 +33,14 @@ class Screen {
          const std::vector<std::string>& withhold)
       : train_(train), uncertain_(uncertain), withhold_(withhold) {}
 
-  /// The best first; at most one for each type and place; none that `base` has; none that changes no stage of `open`
-  /// (one flag per stage; if none is set, all stages count).
+  /// Returns the candidates with positive scores, the best first, at most one for each type and
+  /// place. Effects that `base` has are omitted, and effects that change no open stage. `open`: one
+  /// flag per stage; if no flag is set, all stages are open.
   std::vector<Candidate> candidates(const Estimate& base, const std::vector<bool>& open) const;
 
  private:
-  /// False if a constant represents the effect already, or if no residual shows it.
+  /// False for withheld effects, for effects that a constant represents, and for effects that no
+  /// residual can show.
   bool is_searched(const effects::About& about) const;
   Candidate best_shape(const Basis& base, const effects::Placed& neutral) const;
   double cost_at(const Estimate& base, const RemainingResidual& remaining,

@@ -16,17 +16,17 @@ bool applies_to(const erp::Tolerance& given, const Constant& c) {
 std::pair<std::string, std::string> error_of(const erp::Tolerance& given,
                                              const std::vector<Constant>& all) {
   std::set<std::string> names;
-  bool named = false, zero = false;
+  bool applies = false, is_zero = false;
   for (const Constant& c : all) {
     names.insert(c.name);
-    if (applies_to(given, c)) named = true, zero |= c.nominal == 0;
+    if (applies_to(given, c)) applies = true, is_zero |= c.nominal == 0;
   }
   const std::string of = "of=" + xml::quote(given.of);
-  if (!named)
+  if (!applies)
     return {of + " names no number" + (given.on.empty() ? "" : " of " + given.on) +
                 " that is estimated",
             xml::did_you_mean(given.of, {names.begin(), names.end()})};
-  if (zero && given.relative)
+  if (is_zero && given.relative)
     return {of + " is 0 in robot.xml", "set absolute instead, in its unit"};
   return {};
 }

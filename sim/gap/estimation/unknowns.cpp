@@ -13,7 +13,7 @@ erp::Robot robot_at(const Uncertain& uncertain, const Point& point) {
 }
 
 namespace {
-constexpr double nu = 6;  // chosen
+constexpr double nu = 6;  // degrees of freedom of Student's t; chosen
 }
 
 double prior_cost(const Uncertain& uncertain, const Point& point) {
@@ -59,17 +59,18 @@ double Unknowns::value(std::size_t k) const {
 }
 
 double Unknowns::step(std::size_t k, double stretch) const {
-  constexpr double of_tolerance = 1e-4, of_bounds = 5e-7, of_value = 1e-5,
-                   of_logarithm = 1.5e-5;  // chosen
+  // Steps, in tolerances of constants, and relative to bound and value of parameters; chosen.
+  constexpr double of_tolerance = 1e-4, of_bounds = 5e-7, of_value = 1e-5, of_logarithm = 1.5e-5;
   if (k < constants()) return stretch * of_tolerance;
   const effects::Bounds bounds = parameter(k).bounds;
   if (!parameter(k).fitted) {
     const double step = stretch * of_logarithm;
     return value(k) + step > std::log(bounds.high) ? -step : step;
   }
-  const double own = of_value * std::abs(value(k));
+  const double value_step = of_value * std::abs(value(k));
   const double step =
-      stretch * (own > 0 ? own : of_bounds * std::max(std::abs(bounds.low), bounds.high));
+      stretch *
+      (value_step > 0 ? value_step : of_bounds * std::max(std::abs(bounds.low), bounds.high));
   return value(k) + step > bounds.high ? -step : step;
 }
 
@@ -101,8 +102,9 @@ residuals::Reach Unknowns::reach(std::size_t k, const residuals::Stages& stages)
 bool Unknowns::at_bound(std::size_t k) const {
   if (k < constants() || is_logarithm(k)) return false;
   const effects::Parameter p = parameter(k);
-  const double near = 1e-3 * (p.bounds.high - p.bounds.low);
-  return *p.value > p.bounds.high - near || (*p.value < p.bounds.low + near && p.bounds.low != 0);
+  const double margin = 1e-3 * (p.bounds.high - p.bounds.low);
+  return *p.value > p.bounds.high - margin ||
+         (*p.value < p.bounds.low + margin && p.bounds.low != 0);
 }
 
 }  // namespace sim::estimation

@@ -28,7 +28,7 @@ class Tracer {
         bump_(speed_half_width_s, period_s),
         law_{Spring::of(m_.actuator.tendon), m_.actuator.tendon.damping_N_s_per_m,
              m_.actuator.spindle.radius_m, 0} {
-    law_.rest_m = m_.start_m - law_.spring.stretch_m(m_.actuator.tendon.pretension_N);
+    law_.rest_m = m_.initial_length_m - law_.spring.stretch_m(m_.actuator.tendon.pretension_N);
   }
 
   ChainTrace run() {
@@ -37,16 +37,16 @@ class Tracer {
     if (!out_.current_measured) out_.current_averaged = 1;
     rows_ = std::max({out_.shaft_rad.size(), in_.voltage_V.size(), in_.tension_N.size()});
     out_.speed_rad_per_s = speeds();
-    const bool turning = !out_.shaft_rad.empty();
-    if (turning && !path_.length_m.empty())
+    const bool has_angle = !out_.shaft_rad.empty();
+    if (has_angle && !path_.length_m.empty())
       out_.spring_N.assign(rows_, nan), out_.path_slope.assign(rows_, 1);
-    if (turning && !in_.voltage_V.empty())
+    if (has_angle && !in_.voltage_V.empty())
       out_.terminal_V.assign(rows_, nan), out_.resistance_ohm.assign(rows_, nan);
     find_driver_delay();
     samples_.reserve(rows_), wound_slope_.reserve(rows_), aged_Nm_.reserve(rows_);
     for (std::size_t k = 0; k < rows_; ++k) add_row(k);
     if (!out_.tension_measured) out_.tension_N = out_.spring_N;
-    find_drive();
+    set_drive_torque();
     return std::move(out_);
   }
 
@@ -70,12 +70,12 @@ class Tracer {
     out_.tension_N = undone(effects::Sense::tension, in_.tension_N);
   }
 
-  /// Splits the driver's delay into whole periods and the rest.
+  /// Splits the driver's delay into whole periods and the remaining part of a period.
   void find_driver_delay() {
-    const double late_s = m_.effects.driver_delay_s();
-    late_rows_ = static_cast<std::size_t>(late_s / period_s_);
-    out_.driver_late_s = late_s - static_cast<double>(late_rows_) * period_s_;
-    around_ = two_periods(m_.motor, period_s_, out_.driver_late_s);
+    const double delay_s = m_.effects.driver_delay_s();
+    delay_rows_ = static_cast<std::size_t>(delay_s / period_s_);
+    out_.driver_delay_s = delay_s - static_cast<double>(delay_rows_) * period_s_;
+    two_periods_ = two_periods(m_.motor, period_s_, out_.driver_delay_s);
   }
 
   Signal speeds() const {
@@ -83,35 +83,35 @@ class Tracer {
     return same ? other_->speed_rad_per_s : bump_.rates(out_.shaft_rad);
   }
 
-  effects::ChainSample first() const {
+  effects::ChainSample initial_sample() const {
     effects::ChainSample s;
-    s.path_m = m_.start_m;
+    s.path_m = m_.initial_length_m;
     return s;
   }
-  /// A missing sample keeps its last value, for effects with state need one at every row.
+  /// Adds the sample of row k. Missing values are those of the row before: effects need values.
   effects::ChainSample& sample(std::size_t k) {
-    samples_.push_back(samples_.empty() ? first() : samples_.back());
+    samples_.push_back(samples_.empty() ? initial_sample() : samples_.back());
     effects::ChainSample& s = samples_.back();
-    const auto renew = [&](double& held, const Signal& signal, std::size_t row) {
-      if (!signal.empty() && !std::isnan(signal[row])) held = signal[row];
+    const auto update = [&](double& value, const Signal& signal, std::size_t row) {
+      if (!signal.empty() && !std::isnan(signal[row])) value = signal[row];
     };
     s.dt_s = period_s_;
     s.supply_V = m_.motor.supply_V, s.gear_ratio = m_.motor.gear_ratio;
-    renew(s.voltage_V, in_.voltage_V, k), renew(s.current_A, out_.current_A, k);
-    renew(s.shaft_rad, out_.shaft_rad, k), renew(s.speed_rad_per_s, out_.speed_rad_per_s, k);
-    if (out_.tension_measured) renew(s.tension_N, out_.tension_N, k);
-    else if (k > 0) renew(s.tension_N, out_.spring_N, k - 1);
-    renew(s.path_m, path_.length_m, k), renew(s.wrap_rad, path_.wrap_rad, k);
+    update(s.voltage_V, in_.voltage_V, k), update(s.current_A, out_.current_A, k);
+    update(s.shaft_rad, out_.shaft_rad, k), update(s.speed_rad_per_s, out_.speed_rad_per_s, k);
+    if (out_.tension_measured) update(s.tension_N, out_.tension_N, k);
+    else if (k > 0) update(s.tension_N, out_.spring_N, k - 1);
+    update(s.path_m, path_.length_m, k), update(s.wrap_rad, path_.wrap_rad, k);
     if (const double square = square_A2(k); !std::isnan(square)) s.current_square_A2 = square;
     s.radius_m = law_.radius_m;
     s.load_Nm = s.radius_m * s.tension_N;
-    s.path_change_m = s.path_m - m_.start_m;
-    s.stretch_m = s.stiffness_N_per_m = s.line_speed_m_per_s = 0;  // not yet known
+    s.path_change_m = s.path_m - m_.initial_length_m;
+    s.stretch_m = s.stiffness_N_per_m = s.line_speed_m_per_s = 0;  // computed in add_row
     s.pushes = pushes_;
     return s;
   }
-  /// ⟨i²⟩ over the period that ends at a row: within it the current falls linearly as the motor accelerates,
-  /// i = i_k + (K_E N/R)(ω_k − ω).
+  /// ⟨i²⟩ over the period that ends at row k. The current falls linearly as the motor accelerates:
+  ///   i = i_k + (K_E N/R)(ω_k − ω),  ⟨i²⟩ = (i_k + Δ/2)² + Δ²/12,  Δ = (K_E N/R)(ω_k − ω_k−1)
   double square_A2(std::size_t k) const {
     if (k == 0 || out_.current_A.empty() || out_.speed_rad_per_s.empty()) return 0;
     const double fall_A = m_.motor.back_emf_V_s_per_rad * m_.motor.gear_ratio /
@@ -137,9 +137,9 @@ class Tracer {
     }
     s.stretch_m = path.value - law_.rest_m + wound.value;
     s.line_speed_m_per_s = wound.slope * s.speed_rad_per_s;
-    if (!out_.spring_N.empty()) stretch(k, s, path, wound, pull);
+    if (!out_.spring_N.empty()) set_spring_force(k, s, path, wound, pull);
     if (!out_.terminal_V.empty()) {
-      const double applied_V = k >= late_rows_ ? in_.voltage_V[k - late_rows_] : nan;
+      const double applied_V = k >= delay_rows_ ? in_.voltage_V[k - delay_rows_] : nan;
       out_.terminal_V[k] = m_.effects.voltage_V(applied_V, s);
       out_.resistance_ohm[k] = m_.effects.resistance_ohm(m_.motor.resistance_ohm, s);
     }
@@ -147,62 +147,65 @@ class Tracer {
     aged_Nm_.push_back(m_.effects.aged_Nm(s));
   }
 
-  void stretch(std::size_t k, const effects::ChainSample& s, Sloped path, Sloped wound,
-               Sloped pull) {
+  /// F = f(Δx) + D dΔx/dt + effects; a tendon does not push.
+  void set_spring_force(std::size_t k, const effects::ChainSample& s, Sloped path, Sloped wound,
+                        Sloped pull) {
     const bool in_play = pushes_ && wound.slope == 0;  // neither end drives the other
     const double rate =
         in_play ? 0 : path.slope * path_.rate_m_per_s[k] + wound.slope * out_.speed_rad_per_s[k];
     const double taut_stretch_m = pushes_ ? std::abs(s.stretch_m) : std::max(0.0, s.stretch_m);
     const double force = std::copysign(law_.spring.force_N(taut_stretch_m), s.stretch_m) +
                          law_.damping_N_s_per_m * rate + pull.value;
-    out_.spring_N[k] = pushes_ ? force : taut(s.stretch_m, rate) * std::max(0.0, force);
+    out_.spring_N[k] = pushes_ ? force : taut_fraction(s.stretch_m, rate) * std::max(0.0, force);
     out_.path_slope[k] = path.slope;
   }
-  /// The share of the period around a sample during which a tendon is taut. Without it the damping force of a tendon
-  /// that becomes taut would jump between two samples, and so would the derivative with respect to a constant.
-  double taut(double stretch_m, double rate_m_per_s) const {
+  /// The fraction of the period around a sample during which a tendon is taut. Without it the
+  /// damping force, and the derivatives with respect to constants, would jump between two samples.
+  double taut_fraction(double stretch_m, double rate_m_per_s) const {
     const double changes_m = std::abs(rate_m_per_s) * period_s_;
     if (std::isnan(rate_m_per_s)) return nan;
     return changes_m > 0 ? std::clamp(0.5 + stretch_m / changes_m, 0.0, 1.0) : stretch_m > 0;
   }
 
-  /// i as measured; without a current sensor its mean around the row by the motor's law, delayed by L/R.
+  /// i as measured. Without a sensor, the mean around the row by the motor's law, delayed by L/R:
+  ///   i = (V − K_E N ω)/R
   double current_A(std::size_t k) const {
     if (out_.current_measured) return out_.current_A[k];
     if (k + 1 >= rows_) return nan;
-    const double late_s = m_.motor.inductance_H / out_.resistance_ohm[k] + out_.driver_late_s;
+    const double delay_s = m_.motor.inductance_H / out_.resistance_ohm[k] + out_.driver_delay_s;
     const double next_V = out_.terminal_V[k + 1], now_V = out_.terminal_V[k];
-    const double mean_V = (now_V + next_V) / 2 - late_s * (next_V - now_V) / period_s_;
+    const double mean_V = (now_V + next_V) / 2 - delay_s * (next_V - now_V) / period_s_;
     const double delayed_speed =
-        out_.speed_rad_per_s[k] - late_s * rate_of(out_.speed_rad_per_s, k, period_s_);
+        out_.speed_rad_per_s[k] - delay_s * rate_of(out_.speed_rad_per_s, k, period_s_);
     return (mean_V - m_.motor.back_emf_V_s_per_rad * m_.motor.gear_ratio * delayed_speed) /
            out_.resistance_ohm[k];
   }
-  /// ī over the two periods around row k, weighted as the mean current that causes the change of their mean speeds; a
-  /// current that is a mean around the row itself is not changed.
+  /// ī over the two periods around row k: the current that causes the change of their mean speeds
+  /// (held_voltage.hpp). A current that is recorded as a mean around the row is not changed.
   double mean_current_A(std::size_t k) const {
     const double a = out_.current_averaged;
-    const auto& share = around_.drives;
+    const auto& weights = two_periods_.drives;
     double weighted = 0;
-    for (std::size_t j = 0; j < share.size(); ++j) weighted += share[j] * current_A(k - 1 + j);
-    const double late = around_.drives_per_V;  // 0 without a driver delay
-    if (late != 0 && !out_.terminal_V.empty())
-      weighted += late * out_.terminal_V[k - 1] +
-                  around_.drives_per_speed * rate_of(out_.shaft_rad, k, period_s_);
+    for (std::size_t j = 0; j < weights.size(); ++j) weighted += weights[j] * current_A(k - 1 + j);
+    const double voltage_weight = two_periods_.drives_per_V;  // 0 without a driver delay
+    if (voltage_weight != 0 && !out_.terminal_V.empty())
+      weighted += voltage_weight * out_.terminal_V[k - 1] +
+                  two_periods_.drives_per_speed * rate_of(out_.shaft_rad, k, period_s_);
     return (1 - a) * weighted + a * current_A(k);
   }
 
-  void find_drive() {
-    const bool driven = out_.current_measured || !out_.terminal_V.empty();
-    if (!driven || out_.tension_N.empty() || out_.shaft_rad.empty()) return;
+  /// Sets motor_Nm, drive_Nm and uncertainty_Nm.
+  void set_drive_torque() {
+    const bool has_current = out_.current_measured || !out_.terminal_V.empty();
+    if (!has_current || out_.tension_N.empty() || out_.shaft_rad.empty()) return;
     out_.drive_Nm.assign(rows_, nan), out_.motor_Nm.assign(rows_, nan);
     out_.uncertainty_Nm.assign(rows_, 0);
-    direction_ = directions();
+    directions_ = directions();
     for (std::size_t k = 1; k + 1 < rows_; ++k) {
       out_.motor_Nm[k] = m_.motor.gear_ratio * m_.motor.torque_Nm_per_A * mean_current_A(k);
       const double omega = out_.speed_rad_per_s[k];
       if (!(std::abs(omega) > resting_rad_per_s)) continue;
-      const double before = direction_[k], after = direction_[k + 1];
+      const double before = directions_[k], after = directions_[k + 1];
       const double direction = (before + after) / 2;
       if (std::abs(direction) == 1) {
         out_.drive_Nm[k] = drive_Nm(k, direction > 0 ? 1 : -1);
@@ -215,52 +218,55 @@ class Tracer {
     }
   }
 
-  /// The mean sign of the shaft's speed over the period that ends at each row, −1 … 1. The speed changes linearly
-  /// within a period; its change is taken from the neighbouring periods:
+  /// The mean sign s of the shaft's speed over the period that ends at each row, −1 … 1. The speed
+  /// changes linearly; its change is computed from the periods before (v₋) and after (v₊):
   ///
   ///   v = Δθ/T,  Δv = √(((v₊ − v₋)/2)² + (step/T)²),  s = 2 v/Δv within ±1
   ///
-  /// step: uncertainty of the encoder; if it is too large, v is the smoothed speed.
+  /// Δθ: travel in the period T; step: uncertainty of the encoder. If it is large, v is smoothed.
   std::vector<double> directions() const {
     const Signal& theta = out_.shaft_rad;
-    constexpr double small = 0.02;  // of the rms speed; chosen
+    constexpr double small_fraction = 0.02;  // of the rms speed; chosen
     const double uncertainty = angle_uncertainty_rad() / period_s_;
-    const bool fine = uncertainty < std::max(resting_rad_per_s, small * rms(out_.speed_rad_per_s));
+    const bool is_fine =
+        uncertainty < std::max(resting_rad_per_s, small_fraction * rms(out_.speed_rad_per_s));
     const auto speed = [&](std::size_t k) {
-      return fine ? (theta[k] - theta[k - 1]) / period_s_
-                  : (out_.speed_rad_per_s[k - 1] + out_.speed_rad_per_s[k]) / 2;
+      return is_fine ? (theta[k] - theta[k - 1]) / period_s_
+                     : (out_.speed_rad_per_s[k - 1] + out_.speed_rad_per_s[k]) / 2;
     };
-    const double square_uncertainty = fine ? uncertainty * uncertainty : 0;
-    std::vector<double> all(rows_, nan);
+    const double square_uncertainty = is_fine ? uncertainty * uncertainty : 0;
+    std::vector<double> signs(rows_, nan);
     for (std::size_t k = 2; k + 1 < rows_; ++k) {
       const double v = speed(k), turned = (speed(k + 1) - speed(k - 1)) / 2,
                    change = std::sqrt(turned * turned + square_uncertainty);
-      all[k] = change > 0 ? std::clamp(2 * v / change, -1.0, 1.0) : v > 0 ? 1 : -1;
+      signs[k] = change > 0 ? std::clamp(2 * v / change, -1.0, 1.0) : v > 0 ? 1 : -1;
     }
-    return all;
+    return signs;
   }
-  /// The encoder's specified step, or the smallest in the recording if that is larger; the noise if none is specified.
+  /// The specified step of the encoder, or the smallest step in the recording if that is larger.
+  /// Without a specified step, the noise of the angle.
   double angle_uncertainty_rad() const {
     if (!(m_.shaft_step_rad > 0)) return noise_of(out_.shaft_rad);
-    double least = std::numeric_limits<double>::infinity();
+    double smallest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 1; k < rows_; ++k)
       if (const double turned = std::abs(out_.shaft_rad[k] - out_.shaft_rad[k - 1]);
           turned > 0.5 * m_.shaft_step_rad)
-        least = std::min(least, turned);
-    return std::isfinite(least) ? std::max(m_.shaft_step_rad, least) : m_.shaft_step_rad;
+        smallest = std::min(smallest, turned);
+    return std::isfinite(smallest) ? std::max(m_.shaft_step_rad, smallest) : m_.shaft_step_rad;
   }
 
+  /// N (K_T ī − s τ_CM) − X/e for friction of one sign.
   double drive_Nm(std::size_t k, int direction) {
     const erp::MotorType& m = m_.motor;
     const double omega = out_.speed_rad_per_s[k], n = m.gear_ratio;
     effects::ChainSample& s = samples_[k];
     s.tension_N = out_.tension_N[k];
-    const double near_N =
+    const double motor_side_N =
         m_.effects.empty() ? s.tension_N : m_.effects.motor_side_N(s.tension_N, s);
-    s.load_Nm = wound_slope_[k] * near_N;
-    const double dry =
+    s.load_Nm = wound_slope_[k] * motor_side_N;
+    const double friction_Nm =
         std::max(0.0, m.gear_coulomb_Nm + m_.effects.friction_Nm(direction, s) + aged_Nm_[k]);
-    const double load = m.gear_viscous_Nm_s_per_rad * omega + direction * dry + s.load_Nm;
+    const double load = m.gear_viscous_Nm_s_per_rad * omega + direction * friction_Nm + s.load_Nm;
     const double e = load * direction >= 0 ? m.gear_efficiency : 1 / m.gear_efficiency;
     return out_.motor_Nm[k] - n * (direction * m.rotor_coulomb_Nm + m_.effects.rotor_Nm(s)) -
            load / e;
@@ -271,14 +277,14 @@ class Tracer {
   const PathTrace& path_;
   const ChainTrace* other_;
   double period_s_;
-  TwoPeriods around_{};
+  TwoPeriods two_periods_{};
   Bump bump_;
   TendonLaw law_;
   bool pushes_ = m_.actuator.tendon.path.empty();  ///< true for a drive's transmission
-  std::size_t rows_ = 0, late_rows_ = 0;
+  std::size_t rows_ = 0, delay_rows_ = 0;
   Signal wound_slope_, aged_Nm_;
   std::vector<effects::ChainSample> samples_;
-  std::vector<double> direction_;  ///< of each period
+  std::vector<double> directions_;  ///< of each period
   ChainTrace out_;
 };
 

@@ -5,7 +5,7 @@
 namespace sim::residuals {
 namespace {
 
-std::string of_drive(const erp::Drive& drive, Quantity quantity, bool current_is_set) {
+std::string name_of_drive_column(const erp::Drive& drive, Quantity quantity, bool current_is_set) {
   const auto names = drive_columns(drive);
   switch (quantity) {
     case Quantity::voltage:
@@ -25,23 +25,24 @@ std::string of_drive(const erp::Drive& drive, Quantity quantity, bool current_is
 }  // namespace
 
 std::vector<Column> all_columns(std::size_t actuators, std::size_t joints) {
-  std::vector<Column> all;
+  std::vector<Column> columns;
   for (std::size_t a = 0; a < actuators; ++a)
-    for (const Quantity quantity : actuator_quantities) all.push_back({quantity, a});
-  for (std::size_t j = 0; j < joints; ++j) all.push_back({Quantity::angle, j});
-  return all;
+    for (const Quantity quantity : actuator_quantities) columns.push_back({quantity, a});
+  for (std::size_t j = 0; j < joints; ++j) columns.push_back({Quantity::angle, j});
+  return columns;
 }
 
 std::string name_of(const Column& column, const Episode& episode, const erp::Robot& robot) {
   if (column.quantity == Quantity::angle) {
     const erp::Joint joint = robot.joints()[column.of];
     const erp::Drive* drive = drive_of(robot, joint.name);
-    if (drive) return of_drive(*drive, Quantity::angle, false);
+    if (drive) return name_of_drive_column(*drive, Quantity::angle, false);
     return joint.name + (joint.type == erp::JointType::spherical ? ".qw … qz" : ".angle_rad");
   }
   const std::string& actuator = robot.actuators[column.of].name;
   if (const erp::Drive* drive = drive_of(robot, actuator))
-    return of_drive(*drive, column.quantity, episode.actuators[column.of].current_around);
+    return name_of_drive_column(*drive, column.quantity,
+                                episode.actuators[column.of].current_around);
   constexpr std::array endings{".voltage_V", ".current_A", ".shaft_rad", ".tension_N"};
   return actuator + endings[static_cast<std::size_t>(column.quantity)];
 }

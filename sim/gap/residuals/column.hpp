@@ -4,7 +4,7 @@
 
 #include "sim/gap/residuals/episode.hpp"
 
-/// A column of a recording and its name.
+/// The columns of a recording and their names.
 namespace sim::residuals {
 
 enum class Quantity { voltage, current, shaft, tension, angle };
@@ -18,10 +18,12 @@ struct Column {
   bool operator==(const Column&) const = default;
 };
 
-/// Four for each actuator, then one for each joint, including those that a recording lacks.
+/// Four columns for each actuator, then one for each joint. Columns that a recording lacks are
+/// included.
 std::vector<Column> all_columns(std::size_t actuators, std::size_t joints);
 
-/// Example: "flexor.tension_N". For a drive (drives.hpp): the names of its control, positions and torque.
+/// Example: "flexor.tension_N". For a drive (drives.hpp): the names of its control, positions and
+/// torque.
 std::string name_of(const Column& column, const Episode& episode, const erp::Robot& robot);
 
 }  // namespace sim::residuals

@@ -1,11 +1,13 @@
 #pragma once
 #include "sim/gap/residuals/episode.hpp"
 
-/// Recordings are compared stage by stage, so all must have the same signals.
+/// The signals that all recordings have. Recordings are evaluated jointly, stage by stage, and need
+/// the same signals.
 namespace sim::residuals {
 
-/// Removes from every recording the measured signals that another one lacks or has no sample of. Commands stay, for no
-/// stage depends on them. Adds a line to `remarks` for each removed signal.
+/// Removes from every recording the measured signals for which another recording has no column or
+/// no sample. Commands are not removed because no stage depends on them. Adds a line to `remarks`
+/// for each removed signal.
 void keep_common(std::vector<Episode>& episodes, const erp::Robot& robot,
                  std::vector<std::string>& remarks);
 

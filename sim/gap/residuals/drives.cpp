@@ -36,50 +36,51 @@ erp::MotorType motor_of(const erp::Robot& robot, const erp::Drive& drive) {
   return motor;
 }
 
-/// Without noise: only the steps of a drive's sensors are specified, if anything.
+/// Sensors without noise. At most the steps of a drive's sensors are specified.
 erp::SensorType sensors_of(const erp::Drive& drive, const erp::MotorType& motor) {
-  constexpr double exact = 1e-12;
+  constexpr double no_quantization = 1e-12;  // range that makes the steps negligible
   erp::SensorType sensors;
   sensors.name = "sensors of " + drive.name;
   const double step_rad = load_of(drive).step_rad;
   sensors.encoder_counts_per_rev =
       step_rad > 0 ? static_cast<int>(2 * std::numbers::pi / (step_rad * motor.gear_ratio)) : 0;
-  sensors.current_range_A = sensors.tension_range_N = exact;
+  sensors.current_range_A = sensors.tension_range_N = no_quantization;
   if (const auto* torque = drive.find<erp::TorqueSensor>())
     sensors.tension_noise_N = torque->noise_Nm;
   return sensors;
 }
 
-Signal scaled(Signal signal, double by) {
-  for (double& x : signal) x *= by;
+Signal scaled(Signal signal, double factor) {
+  for (double& x : signal) x *= factor;
   return signal;
 }
 
-/// A command that is held until the next row: share · set_k + (1 − share) · set_k−1.
-Signal held(const Signal& set, double share) {
-  Signal held = set;
-  for (std::size_t k = 1; k < set.size(); ++k) held[k] = share * set[k] + (1 - share) * set[k - 1];
-  return held;
+/// A command that is held until the next row: weight · u_k + (1 − weight) · u_k−1.
+Signal held(const Signal& command, double weight) {
+  Signal mean = command;
+  for (std::size_t k = 1; k < command.size(); ++k)
+    mean[k] = weight * command[k] + (1 - weight) * command[k - 1];
+  return mean;
 }
 
-/// The load as a hinge without forces other than that of its transmission.
+/// The load as a hinge on which only the transmission acts.
 erp::Skeleton hinge_of(const erp::Drive& drive) {
-  constexpr double far_rad = 1e9, any_kg = 1;  // no stops; the centre of mass lies on the axis
+  constexpr double no_stop_rad = 1e9, any_kg = 1;  // the centre of mass lies on the axis
   erp::Body base, load;
   base.name = drive.name + ".base", load.name = drive.name + ".load", load.mass_kg = any_kg;
   load.inertia_kg_m2.fill(load_of(drive).inertia_kg_m2);
   erp::Joint hinge;
   hinge.name = drive.name, hinge.parent = base.name, hinge.child = load.name;
-  hinge.min_rad = -far_rad, hinge.max_rad = far_rad;
+  hinge.min_rad = -no_stop_rad, hinge.max_rad = no_stop_rad;
   erp::Skeleton skeleton;
   skeleton.bodies = {base, load}, skeleton.joints = {hinge};
   return skeleton;
 }
 
 erp::Tendon transmission_of(const erp::Drive& drive) {
-  constexpr double unused = 1;  // for a drive without a stiffness
+  constexpr double unused_stiffness = 1;  // of a drive without a stiffness
   erp::Tendon tendon;
-  tendon.stiffness_N_per_m = drive.stiffness_Nm_per_rad.value_or(unused);
+  tendon.stiffness_N_per_m = drive.stiffness_Nm_per_rad.value_or(unused_stiffness);
   tendon.damping_N_s_per_m = drive.damping_Nm_s_per_rad;
   return tendon;
 }
@@ -103,8 +104,8 @@ erp::Robot as_chains(const erp::Robot& robot) {
 }
 
 const erp::Drive* drive_of(const erp::Robot& robot, const std::string& actuator) {
-  const auto found = std::ranges::find(robot.drives, actuator, &erp::Drive::name);
-  return found == robot.drives.end() ? nullptr : &*found;
+  const auto drive = std::ranges::find(robot.drives, actuator, &erp::Drive::name);
+  return drive == robot.drives.end() ? nullptr : &*drive;
 }
 
 DriveRecord<std::string> drive_columns(const erp::Drive& drive) {

@@ -13,9 +13,10 @@
 namespace sim::residuals {
 namespace {
 
-constexpr double longest_gap_s = 60;
-constexpr double longest_period_s = 0.5;  // chosen: no recording is that slow
-constexpr std::size_t longest_filled = 3;
+constexpr double longest_gap_s = 60;           // chosen
+constexpr double longest_period_s = 0.5;       // chosen: no recording has longer periods
+constexpr std::size_t longest_filled_gap = 3;  // rows; chosen
+constexpr std::size_t fewest_rows = 10;        // chosen
 
 /// For each row of the table, its row on the even grid; −1: dropped.
 struct Grid {
@@ -25,7 +26,8 @@ struct Grid {
   std::size_t repeated = 0, missing = 0;
 };
 
-/// The probable unit of times that are not in seconds, and how many of it are a second, from the period.
+/// The probable unit of times that are not in seconds, and the number of units in a second, from
+/// the period.
 std::pair<const char*, double> unit_of_time(double period) {
   if (period < 500) return {"milliseconds", 1e3};
   if (period < 5e5) return {"microseconds", 1e6};
@@ -45,17 +47,18 @@ void check_seconds(double period_s, const std::string& name) {
 }
 
 Grid even_grid(const std::vector<double>& time_s, const std::string& name) {
-  if (time_s.size() < 10)
+  if (time_s.size() < fewest_rows)
     throw std::invalid_argument(name + ": fewer than ten rows; record some seconds of motion");
   std::vector<double> steps(time_s.size() - 1);
   for (std::size_t k = 0; k < steps.size(); ++k) steps[k] = time_s[k + 1] - time_s[k];
   Grid grid{median(steps), 0, {}, 0, 0};
   check_seconds(grid.period_s, name);
   std::ptrdiff_t row = -1;
-  double due_s = time_s[0];       // filtered: follows the drift of a clock,
-  constexpr double follow = 0.1;  // not the delay of a single row; chosen
+  // The filter follows the drift of a clock, but not the delay of a single row.
+  double expected_s = time_s[0];
+  constexpr double filter_gain = 0.1;  // chosen
   for (std::size_t k = 0; k < time_s.size(); ++k) {
-    const double periods = k == 0 ? 1 : (time_s[k] - due_s) / grid.period_s;
+    const double periods = k == 0 ? 1 : (time_s[k] - expected_s) / grid.period_s;
     if (periods * grid.period_s > longest_gap_s)
       throw std::invalid_argument(name + ": no rows for " +
                                   xml::write_number(periods * grid.period_s) + " s before " +
@@ -64,12 +67,12 @@ Grid even_grid(const std::vector<double>& time_s, const std::string& name) {
       grid.row_of.push_back(-1), ++grid.repeated;
       continue;
     }
-    const auto steps_on = static_cast<std::ptrdiff_t>(std::lround(periods));
-    grid.missing += static_cast<std::size_t>(steps_on - 1);
-    row += steps_on;
+    const auto row_steps = static_cast<std::ptrdiff_t>(std::lround(periods));
+    grid.missing += static_cast<std::size_t>(row_steps - 1);
+    row += row_steps;
     grid.row_of.push_back(row);
-    due_s += double(steps_on) * grid.period_s;
-    due_s = row == 0 ? time_s[0] : std::lerp(due_s, time_s[k], follow);
+    expected_s += double(row_steps) * grid.period_s;
+    expected_s = row == 0 ? time_s[0] : std::lerp(expected_s, time_s[k], filter_gain);
   }
   grid.rows = static_cast<std::size_t>(row + 1);
   return grid;
@@ -101,18 +104,20 @@ Signal on_grid(const Grid& grid, const recording::Column* column) {
   return signal;
 }
 
-/// Removes samples far from both neighbours, which agree. Far: thirty times the median step; chosen.
+/// Removes samples that are far from both neighbours while the neighbours are near each other.
 std::size_t drop_outliers(Signal& signal) {
   std::vector<double> steps;
   for (std::size_t k = 1; k < signal.size(); ++k)
     if (const double step = std::abs(signal[k] - signal[k - 1]); step > 0) steps.push_back(step);
+  constexpr double far_steps = 30, near_steps = 5;  // in median steps; chosen
   if (steps.size() < 10) return 0;
-  const double usual = median(steps);
+  const double median_step = median(steps);
   std::size_t dropped = 0;
   for (std::size_t k = 1; k + 1 < signal.size(); ++k) {
     const double before = signal[k] - signal[k - 1], after = signal[k] - signal[k + 1];
-    const bool alone = before * after > 0 && std::abs(signal[k + 1] - signal[k - 1]) < 5 * usual;
-    if (alone && std::min(std::abs(before), std::abs(after)) > 30 * usual)
+    const bool is_isolated =
+        before * after > 0 && std::abs(signal[k + 1] - signal[k - 1]) < near_steps * median_step;
+    if (is_isolated && std::min(std::abs(before), std::abs(after)) > far_steps * median_step)
       signal[k] = recording::not_taken, ++dropped;
   }
   return dropped;
@@ -124,14 +129,14 @@ std::size_t fill_short_gaps(Signal& signal) {
     if (!std::isnan(signal[k]) || std::isnan(signal[k - 1])) continue;
     std::size_t end = k;
     while (end < signal.size() && std::isnan(signal[end])) ++end;
-    if (end == signal.size() || end - k > longest_filled) continue;
-    const double from = signal[k - 1], slope = (signal[end] - from) / double(end - k + 1);
-    for (std::size_t j = k; j < end; ++j) signal[j] = from + slope * double(j - k + 1), ++filled;
+    if (end == signal.size() || end - k > longest_filled_gap) continue;
+    const double first = signal[k - 1], slope = (signal[end] - first) / double(end - k + 1);
+    for (std::size_t j = k; j < end; ++j) signal[j] = first + slope * double(j - k + 1), ++filled;
   }
   return filled;
 }
 
-/// q and −q are the same rotation: each sample takes the sign nearer to the sample before.
+/// q and −q are the same rotation. Each sample gets the sign that is nearer to the sample before.
 void make_continuous(std::array<Signal, 4>& q) {
   std::size_t last = 0;
   for (std::size_t k = 1; k < q[0].size(); ++k) {
@@ -145,7 +150,7 @@ void make_continuous(std::array<Signal, 4>& q) {
   for (Signal& part : q) fill_short_gaps(part);
 }
 
-/// Arranges one table, and reports its corrections.
+/// Arranges one table and reports the corrections.
 class Layout {
  public:
   Layout(const recording::Table& table, std::string name, std::vector<std::string>& remarks)
@@ -179,8 +184,9 @@ class Layout {
   Signal held(const std::string& column) { return on_grid(grid_, table_.find(column)); }
 
  private:
-  static std::string rows(std::size_t count, const char* one, const char* more) {
-    return count == 1 ? std::string("1 row ") + one : std::to_string(count) + " rows " + more;
+  static std::string rows(std::size_t count, const char* singular, const char* plural) {
+    return count == 1 ? std::string("1 row ") + singular
+                      : std::to_string(count) + " rows " + plural;
   }
   void remark(const std::string& what) { remarks_.push_back(name_ + ": " + what); }
   const recording::Table& table_;
@@ -195,7 +201,7 @@ DriveRecord<Signal> drive_record(Layout& layout, const erp::Drive& drive) {
           layout.smooth(name.load), layout.smooth(name.torque)};
 }
 
-/// Adds the set-points that were sent to an actuator's ECU and those that it followed.
+/// Adds the set-points that were sent to an actuator's ECU and those that the ECU applied.
 void add_set_points(Layout& layout, const erp::Actuator& actuator, ActuatorSignals& signals) {
   const std::string channel = recording::channel_name(actuator.ecu, actuator.channel);
   signals.sent = layout.held(channel + ".sent");
@@ -211,8 +217,8 @@ void add_set_points(Layout& layout, const erp::Actuator& actuator, ActuatorSigna
 std::string columns_of(const erp::Robot& robot) {
   std::string names;
   for (const erp::Drive& drive : robot.drives) {
-    const auto of = drive_columns(drive);
-    names += (names.empty() ? "" : ", ") + of.control_V + ", " + of.position;
+    const auto columns = drive_columns(drive);
+    names += (names.empty() ? "" : ", ") + columns.control_V + ", " + columns.position;
   }
   return names.empty() ? "<actuator>.current_A, <actuator>.shaft_rad, <joint>.angle_rad, …" : names;
 }
@@ -230,18 +236,19 @@ RowTimes row_times(const recording::Table& table) {
   const double period_s = median(reordered);
   double square = 0;
   for (const double step : steps) square += std::pow(std::remainder(step, period_s), 2);
-  return {period_s, std::sqrt(square / 2 / double(steps.size()))};  // each row is in two steps
+  // A deviation of one row changes two steps.
+  return {period_s, std::sqrt(square / 2 / double(steps.size()))};
 }
 
 Episode lay_out(const recording::Table& table, const erp::Robot& robot, const std::string& name,
                 std::vector<std::string>& remarks) {
   Layout layout(table, name, remarks);
   Episode episode{name, layout.grid().period_s, layout.grid().rows, {}, {}};
-  bool any = false;
+  bool has_motion = false;
   for (const erp::Actuator& actuator : robot.actuators) {
     if (const erp::Drive* drive = drive_of(robot, actuator.name)) {
       episode.actuators.push_back(drive_signals(*drive, drive_record(layout, *drive)));
-      any |= !episode.actuators.back().shaft_rad.empty();
+      has_motion |= !episode.actuators.back().shaft_rad.empty();
       continue;
     }
     const std::string a = actuator.name + ".";
@@ -250,8 +257,8 @@ Episode lay_out(const recording::Table& table, const erp::Robot& robot, const st
                                  layout.smooth(a + "shaft_rad"), layout.smooth(a + "tension_N")});
     add_set_points(layout, actuator, episode.actuators.back());
     const ActuatorSignals& s = episode.actuators.back();
-    any |= !s.voltage_V.empty() || !s.current_A.empty() || !s.shaft_rad.empty() ||
-           !s.tension_N.empty();
+    has_motion |= !s.voltage_V.empty() || !s.current_A.empty() || !s.shaft_rad.empty() ||
+                  !s.tension_N.empty();
   }
   for (const erp::Joint& joint : robot.joints()) {
     JointSignals& signals = episode.joints.emplace_back();
@@ -265,9 +272,9 @@ Episode lay_out(const recording::Table& table, const erp::Robot& robot, const st
     if (std::ranges::none_of(signals.quaternion, &Signal::empty))
       make_continuous(signals.quaternion);
     else signals.quaternion = {};
-    any |= !signals.angle_rad.empty() || !signals.quaternion[0].empty();
+    has_motion |= !signals.angle_rad.empty() || !signals.quaternion[0].empty();
   }
-  if (!any)
+  if (!has_motion)
     throw std::invalid_argument(name + ": no column of robot \"" + robot.name +
                                 "\" with a motion; expected columns: " + columns_of(robot));
   return episode;

@@ -8,8 +8,8 @@
 #include "sim/gap/residuals/skeletal.hpp"
 #include "sim/model/effects/effect.hpp"
 
-/// An episode evaluated with a robot and its effects. Explanations share the parts in which they do not differ, so a
-/// change of one effect costs only the parts that it affects.
+/// An episode evaluated with a robot and its effects. Explanations share equal parts. After a
+/// change of one effect only the affected parts are recomputed.
 namespace sim::residuals {
 
 /// One stage's residual at the windows of an episode; NaN: not available there.
@@ -18,13 +18,14 @@ struct Residual {
   std::string on;  ///< actuator or joint
   const char* unit;
   std::vector<double> value;
-  /// rms of the input of the stage: voltage, motor torque, tension, torque of the tendons
+  /// rms of the input of the stage: voltage, motor torque, tension or torque of the tendons
   double driven_by = 0;
-  /// By window, the torque that friction at rest or a stop (infinity) may balance. `value` is the part beyond this
-  /// band; smaller noise is hidden. Empty: 0 everywhere.
+  /// For each window, the torque that friction at rest or a stop (infinity) may balance. `value` is
+  /// the part of the residual beyond this band. Empty: 0 everywhere.
   std::vector<double> band = {};
 };
 
+/// Whether a part of the residual may be hidden by friction at rest or by a stop.
 inline bool banded(const Residual& residual, std::size_t window) {
   return !residual.band.empty() && residual.band[window] > 0;
 }
@@ -41,13 +42,13 @@ struct PathsNearby {
 struct JointTrace {
   std::vector<JointSignals> signals;
   std::vector<Signal> speed_rad_per_s;  ///< of revolute joints
-  bool complete = false;                ///< every joint was measured, or estimated from the tendons
+  bool complete = false;                ///< every joint is measured, or estimated from the tendons
   std::vector<Motion> motions;          ///< one for each window, if complete
-  bool estimated = false;           ///< some angles come from the tendons (pose_from_tendons.hpp)
-  bool depends_on_tendons = false;  ///< estimated or loose: a change of a tendon changes the angles
-  bool depends_on_bodies = false;   ///< flexible links: a change of a mass changes the angles
-  std::shared_ptr<const PathsNearby>
-      nearby;  ///< at the estimated angles; null if a ball joint is among them
+  bool estimated = false;               ///< some angles are estimated from the tendons
+  bool depends_on_tendons = false;      ///< estimated or loose: the angles depend on the tendons
+  bool depends_on_bodies = false;       ///< flexible links: the angles depend on the masses
+  /// At the estimated angles; null if one of the estimated joints is a ball joint.
+  std::shared_ptr<const PathsNearby> nearby;
 };
 
 struct Explanation {
@@ -64,9 +65,9 @@ struct Explanation {
 
 /// The parts of an explanation that an effect changes, directly or indirectly.
 struct Reach {
-  bool joints = false;  ///< joint angles, and so everything
-  bool bones = false;   ///< bodies and joint friction
-  bool line = false;    ///< the relation of a tendon's length and tension to the pose
+  bool joints = false;                    ///< joint angles, and thus all parts
+  bool bones = false;                     ///< bodies and joint friction
+  bool line = false;                      ///< the law of a tendon: its length and tension at a pose
   std::optional<std::size_t> chain = {};  ///< index of the actuator
   std::optional<std::size_t> path = {};   ///< index of the actuator whose path changes
 };

@@ -7,9 +7,9 @@ namespace sim {
 
 /// 0 … count − 1.
 inline std::vector<std::size_t> each(std::size_t count) {
-  std::vector<std::size_t> all(count);
-  std::iota(all.begin(), all.end(), 0);
-  return all;
+  std::vector<std::size_t> indices(count);
+  std::iota(indices.begin(), indices.end(), 0);
+  return indices;
 }
 
 }  // namespace sim

@@ -17,11 +17,12 @@ double rms(const Eigen::RowVectorXd& values) {
 }
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double resting_rad_per_s = 0.02;  // a slower joint may stick; chosen
-constexpr double near_stop_rad = 0.02;      // within this distance a stop may push; chosen
-constexpr double stop_gives_rad = 0.06;     // largest deflection of a stop; chosen
-constexpr double stop_Nm_per_rad = 20;      // residual stiffness beyond that; chosen
+constexpr double resting_rad_per_s = 0.02;    // a slower joint may stick; chosen
+constexpr double near_stop_rad = 0.02;        // within this distance a stop may push; chosen
+constexpr double stop_deflection_rad = 0.06;  // largest deflection of a stop; chosen
+constexpr double stop_Nm_per_rad = 20;        // slope of the residual beyond it; chosen
 
+/// Smallest and largest value in the window around a row.
 std::pair<double, double> range(const Signal& signal, const Bump& bump, std::size_t row) {
   const auto first = signal.begin() + static_cast<std::ptrdiff_t>(row - bump.reach());
   const auto [low, high] =
@@ -29,7 +30,7 @@ std::pair<double, double> range(const Signal& signal, const Bump& bump, std::siz
   return {*low, *high};
 }
 
-/// Whether a ball joint's stop may push. It pushes along the axis of the rotation.
+/// Whether the stop of a ball joint may push within the window.
 bool near_stop(const JointReading& reading, const erp::Joint& joint, double speed_rad_per_s,
                double half_width_s) {
   const double angle_rad = 2 * std::acos(std::min(1.0, std::abs(reading.position[0])));
@@ -38,13 +39,15 @@ bool near_stop(const JointReading& reading, const erp::Joint& joint, double spee
 
 }  // namespace
 
-/// Flexible links have unmeasured joints. Each moves with its spring and damper; the measured joints move its body:
+/// Flexible links have unmeasured joints. The deflection δ of each is simulated with its spring k
+/// and damper D, driven by the measured motion q of the other joints:
 ///
 ///   I δ̈ = −(τ(q, q̇, q̈, δ, δ̇, 0) + k δ + D δ̇)          τ: inverse dynamics, by the trapezoidal rule
 ///
-/// The measured motion is a mean over the windows, so the result is a mean too and is not averaged again.
+/// The measured motion is a mean under windows. Thus the result is a mean and is not averaged
+/// again.
 std::vector<Stages::Flexion> Stages::flexions(const Episode& episode, JointTrace& trace) {
-  std::vector<Flexion> all;
+  std::vector<Flexion> flexions;
   const Bump bump(windows_.half_width_s, episode.period_s);
   const std::size_t reach = 2 * bump.reach() + 1;
   for (std::size_t j = 0; j < trace.signals.size(); ++j) {
@@ -57,7 +60,8 @@ std::vector<Stages::Flexion> Stages::flexions(const Episode& episode, JointTrace
     angles.assign(episode.rows, 0.0);
     trace.depends_on_bodies = true;
     if (!(stiffness > 0) || !bones_.measured(trace.signals)) continue;
-    auto& states = all.emplace_back(j, std::vector<std::array<double, 3>>(episode.rows)).states;
+    auto& states =
+        flexions.emplace_back(j, std::vector<std::array<double, 3>>(episode.rows)).states;
     double angle = 0, speed = 0;
     bool started = false;
     for (std::size_t k = reach; k + reach < episode.rows; ++k) {
@@ -65,30 +69,31 @@ std::vector<Stages::Flexion> Stages::flexions(const Episode& episode, JointTrace
       if (!motion.valid) continue;
       motion.joints[j].position[0] = angle, motion.joints[j].velocity_rad_per_s[0] = speed;
       motion.acceleration[coordinate] = 0;
-      const double needed = bones_.inverse(motion)[coordinate];
+      const double static_Nm = bones_.inverse(motion)[coordinate];
       if (!started) {
-        angle = -needed / stiffness, started = true;
+        angle = -static_Nm / stiffness, started = true;
       } else {
         motion.acceleration[coordinate] = 1;
-        const double inertia = bones_.inverse(motion)[coordinate] - needed;
+        const double inertia = bones_.inverse(motion)[coordinate] - static_Nm;
         const double half_s = episode.period_s / 2, damping = joint.viscous_Nm_s_per_rad;
-        const double pushed = needed + stiffness * angle + damping * speed;
-        states[k] = {angle, speed, -pushed / inertia};
-        const double faster = -2 * half_s * (pushed + half_s * stiffness * speed) /
-                              (inertia + half_s * damping + half_s * half_s * stiffness);
-        angle += half_s * (2 * speed + faster), speed += faster;
+        const double total_Nm = static_Nm + stiffness * angle + damping * speed;
+        states[k] = {angle, speed, -total_Nm / inertia};
+        const double speed_change = -2 * half_s * (total_Nm + half_s * stiffness * speed) /
+                                    (inertia + half_s * damping + half_s * half_s * stiffness);
+        angle += half_s * (2 * speed + speed_change), speed += speed_change;
       }
-      angles[k] = std::clamp(angle, -3.0, 3.0);
+      constexpr double largest_deflection_rad = 3;  // chosen: a diverging simulation remains finite
+      angles[k] = std::clamp(angle, -largest_deflection_rad, largest_deflection_rad);
     }
   }
-  return all;
+  return flexions;
 }
 
 JointTrace Stages::joint_trace(const Episode& episode, std::span<const std::size_t> rows,
                                const JointTrace* guess) {
   const auto& joints = bones_.joint_list();
   JointTrace trace;
-  trace.signals.resize(joints.size());  // an effect may have added some
+  trace.signals.resize(joints.size());  // more than recorded if an effect adds joints
   const Bump bump(windows_.half_width_s, episode.period_s);
   std::vector<LooseJoint> loose;
   for (std::size_t j = 0; j < joints.size(); ++j) {
@@ -129,8 +134,8 @@ JointTrace Stages::joint_trace(const Episode& episode, std::span<const std::size
   return trace;
 }
 
-/// Adds the torques of a joint's friction and springs along its coordinates. False: a ball joint rests or is at its
-/// stop.
+/// Adds the torques of a joint's friction and springs along its coordinates. Returns false if a
+/// ball joint rests or is at its stop.
 bool Stages::add_joint_torque(std::size_t j, const JointReading& reading,
                               Eigen::Ref<Eigen::VectorXd> torque) const {
   const erp::Joint& joint = bones_.joint_list()[j];
@@ -170,12 +175,12 @@ Stages::Mobility Stages::mobility(const JointTrace& joints, std::size_t j, const
   const auto [slowest, fastest] = range(joints.speed_rad_per_s[j], bump, row);
   if (slowest > resting_rad_per_s || fastest < -resting_rad_per_s) return Mobility::moves;
   const double mean = bump.rate(joints.signals[j].angle_rad, row);
-  const bool still = std::max(-slowest, fastest) < resting_rad_per_s;
-  return still && std::abs(mean) < resting_rad_per_s ? Mobility::rests : Mobility::mixed;
+  const bool is_still = std::max(-slowest, fastest) < resting_rad_per_s;
+  return is_still && std::abs(mean) < resting_rad_per_s ? Mobility::rests : Mobility::mixed;
 }
 
-/// The remaining torque of a revolute joint's balance, beyond the friction of a resting joint and the push of a stop,
-/// and the band of torque that these may balance.
+/// The part of a revolute joint's balance that neither friction at rest nor a stop can explain, and
+/// the band of torque that these may balance.
 std::pair<double, double> Stages::remaining_torque(const JointTrace& joints, std::size_t j,
                                                    const Bump& bump, std::size_t row,
                                                    double torque_Nm) const {
@@ -186,8 +191,8 @@ std::pair<double, double> Stages::remaining_torque(const JointTrace& joints, std
   if (mobility != Mobility::moves) {
     effects::Acting acting(equipped_.acting, joint.name, effects::Seat::joint);
     const double friction = joint.coulomb_Nm + acting.joint_friction_Nm(0);
-    band = mobility == Mobility::rests ? friction
-                                       : 2 * friction;  // one sign was applied, and may be wrong
+    // In mixed windows the balance already contains friction of one sign, which may be wrong.
+    band = mobility == Mobility::rests ? friction : 2 * friction;
     torque_Nm = std::copysign(std::max(0.0, std::abs(torque_Nm) - band), torque_Nm);
   }
   const auto [lowest, highest] = range(joints.signals[j].angle_rad, bump, row);
@@ -195,10 +200,10 @@ std::pair<double, double> Stages::remaining_torque(const JointTrace& joints, std
   const bool below = lowest < joint.min_rad + near_stop_rad;
   if (above)
     torque_Nm = std::max(0.0, torque_Nm) +
-                stop_Nm_per_rad * std::max(0.0, highest - joint.max_rad - stop_gives_rad);
+                stop_Nm_per_rad * std::max(0.0, highest - joint.max_rad - stop_deflection_rad);
   if (below)
     torque_Nm = std::min(0.0, torque_Nm) -
-                stop_Nm_per_rad * std::max(0.0, joint.min_rad - stop_gives_rad - lowest);
+                stop_Nm_per_rad * std::max(0.0, joint.min_rad - stop_deflection_rad - lowest);
   if (above || below) band = std::numeric_limits<double>::infinity();
   return {torque_Nm, band};
 }

@@ -1,4 +1,4 @@
-// Estimates the angles of unmeasured joints and of joints with a loose sensor from the tendons.
+// Estimates the angles of unmeasured joints, and of joints whose sensor has play, from the tendons.
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +9,7 @@
 namespace sim::residuals {
 namespace {
 
-/// The episode without motor signals, which the tendons do not need.
+/// The signals of an episode that the tendons' law needs: shaft angles and tensions.
 Episode tendon_signals(const Episode& episode) {
   Episode lines{episode.name, episode.period_s, episode.rows, {}, {}};
   for (const ActuatorSignals& s : episode.actuators)
@@ -17,7 +17,7 @@ Episode tendon_signals(const Episode& episode) {
   return lines;
 }
 
-/// The largest D/κ of some tendons.
+/// The largest D/κ of the given tendons.
 double slowest_damper_s(const erp::Robot& robot, std::span<const std::size_t> lines) {
   double slowest_s = 0;
   for (const std::size_t a : lines) {
@@ -47,11 +47,11 @@ std::vector<std::size_t> Stages::informative_tendons(const Episode& episode,
   for (std::size_t a = 0; a < episode.actuators.size(); ++a) {
     const ActuatorSignals& s = episode.actuators[a];
     const auto crossed = bones_.crossed_by(a);
-    const bool known = std::ranges::all_of(crossed, [&](std::size_t j) {
+    const bool is_determined = std::ranges::all_of(crossed, [&](std::size_t j) {
       return std::ranges::count(missing, j) || was_measured(trace.signals[j], joints[j].type);
     });
-    if (known && !equipped_.robot.actuators[a].tendon.path.empty() && !s.shaft_rad.empty() &&
-        !s.tension_N.empty())
+    if (is_determined && !equipped_.robot.actuators[a].tendon.path.empty() &&
+        !s.shaft_rad.empty() && !s.tension_N.empty())
       lines.push_back(a);
   }
   return lines;
@@ -61,9 +61,10 @@ std::vector<ChainTrace> Stages::chains_of(const Episode& episode,
                                           std::span<const std::size_t> lines,
                                           const JointTrace& joints) {
   const auto paths = this->paths(episode, joints, lines);
-  std::vector<ChainTrace> all;
-  for (std::size_t n = 0; n < lines.size(); ++n) all.push_back(chain(episode, lines[n], paths[n]));
-  return all;
+  std::vector<ChainTrace> chains;
+  for (std::size_t n = 0; n < lines.size(); ++n)
+    chains.push_back(chain(episode, lines[n], paths[n]));
+  return chains;
 }
 
 void Stages::find_pose(const Episode& episode, JointTrace& trace, const JointTrace* guess) {
@@ -71,9 +72,9 @@ void Stages::find_pose(const Episode& episode, JointTrace& trace, const JointTra
   if (missing.empty() || lines.empty()) return;
   const bool has_guess = guess && guess->estimated;
   if (has_guess) trace.nearby = guess->nearby;
-  const Episode pulled = tendon_signals(episode);
+  const Episode tendon_episode = tendon_signals(episode);
   const auto chains = [&](const std::vector<JointSignals>& signals) {
-    return chains_of(pulled, lines, {.signals = signals, .nearby = trace.nearby});
+    return chains_of(tendon_episode, lines, {.signals = signals, .nearby = trace.nearby});
   };
   const PoseSearch search(bones_.joint_list(), missing, chains, episode.period_s,
                           slowest_damper_s(equipped_.robot, lines));
@@ -94,9 +95,9 @@ void Stages::find_crossings(const Episode& episode, JointTrace& trace,
   if (loose.empty() || lines.empty() || trace.estimated) return;
   std::vector<std::size_t> joints;
   for (const LooseJoint& l : loose) joints.push_back(l.joint);
-  const Episode pulled = tendon_signals(episode);
+  const Episode tendon_episode = tendon_signals(episode);
   const auto chains = [&](const std::vector<JointSignals>& signals) {
-    return chains_of(pulled, lines, {.signals = signals});
+    return chains_of(tendon_episode, lines, {.signals = signals});
   };
   const PoseSearch search(bones_.joint_list(), joints, chains, episode.period_s,
                           slowest_damper_s(equipped_.robot, lines));
@@ -106,35 +107,36 @@ void Stages::find_crossings(const Episode& episode, JointTrace& trace,
   constexpr int steps = 2;  // chosen
   search.refine(estimated, steps, steps);
   for (const LooseJoint& l : loose) {
-    const Signal& at = estimated[l.joint].angle_rad;
-    const auto may = may_cross(l.reading_rad, episode.period_s);
-    for (std::size_t k = 0; k < may.size(); ++k)
-      if (may[k] && !std::isnan(at[k]))
-        trace.signals[l.joint].angle_rad[k] = std::clamp(at[k], l.reading_rad[k] - l.width_rad / 2,
-                                                         l.reading_rad[k] + l.width_rad / 2);
+    const Signal& angle = estimated[l.joint].angle_rad;
+    const auto is_crossing = may_cross(l.reading_rad, episode.period_s);
+    for (std::size_t k = 0; k < is_crossing.size(); ++k)
+      if (is_crossing[k] && !std::isnan(angle[k]))
+        trace.signals[l.joint].angle_rad[k] = std::clamp(
+            angle[k], l.reading_rad[k] - l.width_rad / 2, l.reading_rad[k] + l.width_rad / 2);
   }
 }
 
 std::shared_ptr<const PathsNearby> Stages::nearby(const Episode& episode, const JointTrace& trace,
                                                   std::span<const std::size_t> missing) {
   constexpr double perturbation_rad = 1e-3;
-  const auto all = each(episode.actuators.size());
-  PathsNearby near{trace.signals, bones_.paths(trace.signals, episode.rows, all), {}, {}};
-  near.slope_m.resize(all.size());
+  const auto actuators = each(episode.actuators.size());
+  PathsNearby linearized{
+      trace.signals, bones_.paths(trace.signals, episode.rows, actuators), {}, {}};
+  linearized.slope_m.resize(actuators.size());
   for (const std::size_t j : missing) {
     if (bones_.joint_list()[j].type == erp::JointType::fixed) continue;
     if (bones_.joint_list()[j].type != erp::JointType::revolute) return nullptr;
     auto perturbed = trace.signals;
     for (double& angle : perturbed[j].angle_rad) angle += perturbation_rad;
-    auto moved = bones_.paths(perturbed, episode.rows, all);
-    for (const std::size_t a : all) {
-      Signal& slope = near.slope_m[a].emplace_back(std::move(moved[a].length_m));
+    auto moved_paths = bones_.paths(perturbed, episode.rows, actuators);
+    for (const std::size_t a : actuators) {
+      Signal& slope = linearized.slope_m[a].emplace_back(std::move(moved_paths[a].length_m));
       for (std::size_t k = 0; k < slope.size(); ++k)
-        slope[k] = (slope[k] - near.paths[a].length_m[k]) / perturbation_rad;
+        slope[k] = (slope[k] - linearized.paths[a].length_m[k]) / perturbation_rad;
     }
-    near.hinges.push_back(j);
+    linearized.hinges.push_back(j);
   }
-  return std::make_shared<const PathsNearby>(std::move(near));
+  return std::make_shared<const PathsNearby>(std::move(linearized));
 }
 
 }  // namespace sim::residuals

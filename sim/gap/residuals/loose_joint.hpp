@@ -3,13 +3,13 @@
 
 #include "sim/gap/residuals/episode.hpp"
 
-/// A joint's sensor with play of width w: the body's angle q is within w/2 of the sensor's reading s.
+/// A joint whose sensor has play of width w: the joint angle q is within w/2 of the reading s.
 ///
-///   the sensor turns in one direction   q = s ± w/2: the body drives the sensor
-///   it rests or reverses                |q − s| ≤ w/2: the body crosses the play, not measured
+///   the sensor turns in one direction    q = s ± w/2: the joint drives the sensor
+///   the sensor rests or reverses         |q − s| ≤ w/2: the joint crosses the play, and q is not measured
 ///
-/// Source: that of the effect, sim/model/effects/joint/play.hpp. Ignores: bodies that swing within w while the sensor
-/// rests, unless the tendons show it (joint_search.cpp).
+/// Source: see sim/model/effects/joint/play.hpp. Ignores: motion within the play while the sensor
+/// rests, unless it can be estimated from the tendons (joint_search.cpp).
 namespace sim::residuals {
 
 struct LooseJoint {
@@ -18,10 +18,10 @@ struct LooseJoint {
   Signal reading_rad;
 };
 
-/// q, with a linear transition where it crosses the play.
+/// Returns q, with a linear transition where it crosses the play.
 Signal without_play(const Signal& reading_rad, double width_rad, double period_s);
 
-/// Rows at which the sensor may rest or reverse, so that the body may cross the play.
+/// Returns for each row whether the sensor may rest or reverse; then the joint may cross the play.
 std::vector<char> may_cross(const Signal& reading_rad, double period_s);
 
 }  // namespace sim::residuals

@@ -12,14 +12,14 @@ namespace sim::residuals {
 namespace {
 
 constexpr double current_gain_error = 0.003;  // of a good current sensor; chosen
-constexpr double voltage_gain_error =
-    3e-4;  // of an amplifier, if the voltage replaces a current; chosen
+// Of an amplifier; for currents that are computed from the voltage; chosen.
+constexpr double voltage_gain_error = 3e-4;
 
 void disturb(Signal& signal, double noise_rms, Noise& noise) {
   for (double& x : signal) x += noise_rms * noise.normal();
 }
 
-/// The step of an effect on a sensor, or 0.
+/// The step of a quantization effect on a sensor, or 0.
 double coarse_step(const std::vector<effects::Placed>& all, const char* type,
                    const std::string& on) {
   for (effects::Placed placed : all)
@@ -28,14 +28,16 @@ double coarse_step(const std::vector<effects::Placed>& all, const char* type,
   return 0;
 }
 
-/// Adds another realization of a sensor's noise and quantization error, with a random shift u of its steps:
+/// Adds another realization of a sensor's noise and quantization error, with a random shift u of
+/// its steps:
 ///
 ///   e = step (⌊(x + n)/step + u⌉ − u) − x,   x: the signal smoothed, n ~ N(0, rms²), u ~ U(0, 1)
 ///
-/// If the noise is smaller than a step, the error is no white noise: it is constant while the signal is.
+/// If the noise is smaller than a step, the error is not white noise: it is constant while the
+/// signal is constant.
 void requantize(Signal& signal, double noise_rms, double step, Noise& noise) {
   if (!(step > 0)) return disturb(signal, noise_rms, noise);
-  constexpr std::size_t reach = 12;  // rows to each side of the smoothing window
+  constexpr std::size_t reach = 12;  // rows to each side of the smoothing window; chosen
   const Signal original = signal;
   const double shift = noise.uniform();
   for (std::size_t k = 0; k < original.size(); ++k) {
@@ -49,22 +51,22 @@ void requantize(Signal& signal, double noise_rms, double step, Noise& noise) {
   }
 }
 
-/// Delays the samples by half a period, as a low-pass amplifier does.
+/// Delays the samples by half a period, like a low-pass amplifier.
 void delay(Signal& signal) {
-  constexpr double late = 0.5;
+  constexpr double delay_periods = 0.5;
   const Signal original = signal;
   for (std::size_t k = 1; k + 1 < original.size(); ++k)
-    signal[k] = original[k] - late * (original[k + 1] - original[k - 1]) / 2;
+    signal[k] = original[k] - delay_periods * (original[k + 1] - original[k - 1]) / 2;
 }
 
 /// Shifts each row by a random delay, common to all signals.
 void disturb_times(Episode& e, Noise& noise) {
-  Signal late_s(e.rows);
-  for (double& t : late_s) t = e.jitter_s * noise.uniform();
+  Signal delay_s(e.rows);
+  for (double& t : delay_s) t = e.jitter_s * noise.uniform();
   const auto disturb = [&](Signal& signal) {
     const Signal original = signal;
     for (std::size_t k = 0; k < signal.size(); ++k)
-      signal[k] += rate_of(original, k, e.period_s) * late_s[k];
+      signal[k] += rate_of(original, k, e.period_s) * delay_s[k];
   };
   for (ActuatorSignals& s : e.actuators)
     disturb(s.voltage_V), disturb(s.current_A), disturb(s.shaft_rad), disturb(s.tension_N);
@@ -74,7 +76,8 @@ void disturb_times(Episode& e, Noise& noise) {
   }
 }
 
-/// Applies the deviations that no data sheet excludes: tensions half a period later, currents 0.3 % larger.
+/// Applies the deviations that no data sheet excludes: delayed tensions and a gain error of
+/// currents.
 void apply_unspecified_errors(Episode& e) {
   for (ActuatorSignals& s : e.actuators) {
     delay(s.tension_N);
@@ -85,22 +88,22 @@ void apply_unspecified_errors(Episode& e) {
 }
 
 /// Adds the sensors' noise and quantization.
-void disturb(Episode& again, const erp::Robot& robot, std::uint64_t seed) {
+void disturb(Episode& noisy, const erp::Robot& robot, std::uint64_t seed) {
   Noise noise(seed);
-  if (again.jitter_s > 0) disturb_times(again, noise);
+  if (noisy.jitter_s > 0) disturb_times(noisy, noise);
   const auto coarse = effects::read_effects(robot);
   for (std::size_t a = 0; a < robot.actuators.size(); ++a) {
     const erp::SensorType& sensors = robot.sensors_of(robot.actuators[a]);
     const SensorScale scale(robot.motor_of(robot.actuators[a]), sensors);
-    ActuatorSignals& s = again.actuators[a];
-    const bool specified = sensors.encoder_counts_per_rev > 0;  // not for some drives
-    if (specified) requantize(s.shaft_rad, 0, scale.shaft_rad_per_count, noise);
+    ActuatorSignals& s = noisy.actuators[a];
+    const bool has_encoder_step = sensors.encoder_counts_per_rev > 0;  // false for some drives
+    if (has_encoder_step) requantize(s.shaft_rad, 0, scale.shaft_rad_per_count, noise);
     else disturb(s.shaft_rad, noise_of(s.shaft_rad), noise);
     requantize(s.current_A, sensors.current_noise_A, scale.current_A_per_count, noise);
-    const bool drive = robot.actuators[a].tendon.path.empty();
-    const double of_tension =
-        drive && sensors.tension_noise_N == 0 ? noise_of(s.tension_N) : sensors.tension_noise_N;
-    requantize(s.tension_N, of_tension, scale.tension_N_per_count, noise);
+    const bool is_drive = robot.actuators[a].tendon.path.empty();
+    const double tension_noise =
+        is_drive && sensors.tension_noise_N == 0 ? noise_of(s.tension_N) : sensors.tension_noise_N;
+    requantize(s.tension_N, tension_noise, scale.tension_N_per_count, noise);
     const auto coarsen = [&](const char* type, Signal& signal) {
       if (const double step = coarse_step(coarse, type, robot.actuators[a].name); step > 0)
         requantize(signal, 0, step, noise);
@@ -111,7 +114,7 @@ void disturb(Episode& again, const erp::Robot& robot, std::uint64_t seed) {
   }
   const auto joints = robot.joints();
   for (std::size_t j = 0; j < joints.size(); ++j) {
-    JointSignals& signals = again.joints[j];
+    JointSignals& signals = noisy.joints[j];
     const auto sensor =
         std::ranges::find(robot.joint_sensors, joints[j].name, &erp::JointSensor::joint);
     if (sensor != robot.joint_sensors.end() && joints[j].type == erp::JointType::revolute) {
@@ -127,7 +130,8 @@ void disturb(Episode& again, const erp::Robot& robot, std::uint64_t seed) {
   }
 }
 
-/// The change of one residual by a change of the recording, at each window; NaN: hidden by a band.
+/// The change of one residual by a change of the recording, at each window. NaN if it may be hidden
+/// by a band.
 Signal change_of(const Residual& before, const Residual& after) {
   Signal change;
   for (std::size_t k = 0; k < before.value.size(); ++k)
@@ -139,25 +143,26 @@ Signal change_of(const Residual& before, const Residual& after) {
 }  // namespace
 
 Episode resampled_noise(const Episode& episode, const erp::Robot& robot, std::uint64_t seed) {
-  Episode again = episode;
-  apply_unspecified_errors(again);
-  disturb(again, robot, seed);
-  return again;
+  Episode noisy = episode;
+  apply_unspecified_errors(noisy);
+  disturb(noisy, robot, seed);
+  return noisy;
 }
 
 std::vector<Floor> floors(Stages& stages, const Episode& episode, const erp::Robot& robot,
                           std::uint64_t seed) {
   Episode noisy = episode, deviating = episode;
   disturb(noisy, robot, seed), apply_unspecified_errors(deviating);
-  const auto plain = stages.residuals(episode), noise = stages.residuals(noisy),
+  const auto nominal = stages.residuals(episode), noise = stages.residuals(noisy),
              deviations = stages.residuals(deviating);
   std::vector<Floor> floors;
-  for (std::size_t r = 0; r < plain.size(); ++r) {
-    const double by_noise = rms(change_of(plain[r], noise[r]));
-    const Signal by_deviation = change_of(plain[r], deviations[r]);
+  for (std::size_t r = 0; r < nominal.size(); ++r) {
+    const double by_noise = rms(change_of(nominal[r], noise[r]));
+    const Signal by_deviation = change_of(nominal[r], deviations[r]);
     Floor floor{std::hypot(by_noise, rms(by_deviation)), {}};
     for (const double d : by_deviation)
-      floor.at.push_back(std::isnan(d) ? floor.rms : std::max(floor.rms, std::hypot(by_noise, d)));
+      floor.by_window.push_back(std::isnan(d) ? floor.rms
+                                              : std::max(floor.rms, std::hypot(by_noise, d)));
     floors.push_back(std::move(floor));
   }
   return floors;

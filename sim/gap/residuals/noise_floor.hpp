@@ -4,27 +4,29 @@
 
 #include "sim/gap/residuals/stages.hpp"
 
-/// The noise floor: the residuals that the specified sensor noise alone causes.
+/// The noise floor: the residuals that only the specified sensor noise causes.
 namespace sim::residuals {
 
-/// The same recording with another realization of the sensor noise added: noise and quantization of each converter by
-/// the robot's sensor types, and the coarser steps of its effects. For joints without a specified sensor, the noise
-/// estimated from the recording. Also the deviations that no data sheet excludes: tensions half a period later,
-/// currents 0.3 % larger.
+/// Adds another realization of the sensor noise to a recording: noise and quantization of each
+/// converter by the robot's sensor types, and the coarser steps of its effects. For joints without
+/// a specified sensor, the noise is estimated from the recording. Also applies the deviations that
+/// no data sheet excludes: a delay of tensions by half a period, and a gain error of currents of
+/// 0.3 %.
 Episode resampled_noise(const Episode& episode, const erp::Robot& robot, std::uint64_t seed);
 
 /// σ of one residual:
 ///
 ///   σ² = n² + ⟨d²⟩    σ_k² = max(σ², n² + d_k²)
 ///
-/// n: rms change of the residual by noise; d_k: its change at window k by the deviations that no data sheet excludes.
-/// d_k is larger in fast windows; σ_k is at least σ in every window, for the laws are approximations.
+/// n: rms change of the residual by noise; d_k: its change at window k by the deviations that no
+/// data sheet excludes, which is larger in fast windows. σ_k is at least σ because the laws are
+/// approximations.
 struct Floor {
-  double rms = 0;          ///< σ; 0: no window
-  std::vector<double> at;  ///< σ_k
+  double rms = 0;                 ///< σ; 0: no window
+  std::vector<double> by_window;  ///< σ_k
 };
 
-/// One for each residual of `stages.residuals(episode)`; `robot` specifies the sensors.
+/// Returns a floor for each residual of `stages.residuals(episode)`. `robot` specifies the sensors.
 std::vector<Floor> floors(Stages& stages, const Episode& episode, const erp::Robot& robot,
                           std::uint64_t seed = 1);
 

@@ -10,12 +10,11 @@ namespace sim::residuals {
 namespace {
 
 constexpr double smooth_s = 0.006;  // half width of the pose's window; chosen
-constexpr double edge_s =
-    0.03;  // around rows without an estimate the pose is removed as well; chosen
-constexpr double slack_N = 0.3;            // below this tension a tendon may be slack; chosen
+constexpr double edge_s = 0.03;     // the pose is also removed this near a row without one; chosen
+constexpr double slack_N = 0.3;     // below this tension a tendon may be slack; chosen
 constexpr double perturbation_rad = 1e-4;  // of the slopes
-constexpr double largest_step_rad = 1;
-constexpr double least_N_per_rad = 5;  // smallest slope that determines a pose; chosen
+constexpr double largest_step_rad = 1;     // chosen
+constexpr double least_N_per_rad = 5;      // smallest slope that determines a pose; chosen
 
 void smooth(Signal& signal, double period_s) {
   const Bump bump(smooth_s, period_s);
@@ -33,25 +32,25 @@ void fill_forward(Signal& signal) {
 
 /// The Gauss-Newton step of the unknowns at one row. `slope`: ∂F̂/∂q, N/rad, tendons × unknowns.
 /// Empty: the tendons do not determine the pose there.
-Eigen::VectorXd step_at(std::size_t row, const std::vector<ChainTrace>& here,
+Eigen::VectorXd step_at(std::size_t row, const std::vector<ChainTrace>& chains,
                         const Eigen::Ref<const Eigen::MatrixXd>& slope) {
   Eigen::VectorXd difference_N(slope.rows());
   for (Eigen::Index a = 0; a < difference_N.size(); ++a) {
-    const ChainTrace& line = here[std::size_t(a)];
+    const ChainTrace& line = chains[std::size_t(a)];
     difference_N[a] = line.tension_N[row] - line.spring_N[row];
     if (!std::isfinite(difference_N[a])) difference_N[a] = 0;
   }
-  const Eigen::MatrixXd held = slope.transpose() * slope;
-  const Eigen::VectorXd pushed = slope.transpose() * difference_N;
-  Eigen::VectorXd step(pushed.size());
+  const Eigen::MatrixXd normal = slope.transpose() * slope;
+  const Eigen::VectorXd gradient = slope.transpose() * difference_N;
+  Eigen::VectorXd step(gradient.size());
   if (step.size() == 1) {
-    if (held(0, 0) < least_N_per_rad * least_N_per_rad) return {};
-    step = pushed / held(0, 0);
+    if (normal(0, 0) < least_N_per_rad * least_N_per_rad) return {};
+    step = gradient / normal(0, 0);
   } else {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(held);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(normal);
     if (modes.eigenvalues()[0] < least_N_per_rad * least_N_per_rad) return {};
     step = modes.eigenvectors() *
-           (modes.eigenvectors().transpose() * pushed).cwiseQuotient(modes.eigenvalues());
+           (modes.eigenvectors().transpose() * gradient).cwiseQuotient(modes.eigenvalues());
   }
   return step.cwiseMax(-largest_step_rad).cwiseMin(largest_step_rad);
 }
@@ -78,14 +77,15 @@ void PoseSearch::turn(std::vector<JointSignals>& signals, const Unknown& unknown
     return;
   }
   auto& q = joint.quaternion;
-  const Eigen::Quaterniond was(q[0][row], q[1][row], q[2][row], q[3][row]);
-  const Eigen::Quaterniond is = was.normalized() * Eigen::Quaterniond(Eigen::AngleAxisd(
-                                                       rad, Eigen::Vector3d::Unit(unknown.axis)));
-  q[0][row] = is.w(), q[1][row] = is.x(), q[2][row] = is.y(), q[3][row] = is.z();
+  const Eigen::Quaterniond before(q[0][row], q[1][row], q[2][row], q[3][row]);
+  const Eigen::Quaterniond after =
+      before.normalized() *
+      Eigen::Quaterniond(Eigen::AngleAxisd(rad, Eigen::Vector3d::Unit(unknown.axis)));
+  q[0][row] = after.w(), q[1][row] = after.x(), q[2][row] = after.y(), q[3][row] = after.z();
 }
 
 template <class Change>
-void PoseSearch::change(std::vector<JointSignals>& signals, Change each) const {
+void PoseSearch::change_missing(std::vector<JointSignals>& signals, Change each) const {
   for (const std::size_t j : missing_) {
     each(signals[j].angle_rad);
     for (Signal& part : signals[j].quaternion) each(part);
@@ -103,8 +103,8 @@ void PoseSearch::start(std::vector<JointSignals>& signals, std::size_t rows) con
 }
 
 Eigen::MatrixXd PoseSearch::slopes(const std::vector<JointSignals>& signals,
-                                   const std::vector<ChainTrace>& here) const {
-  const std::size_t rows = here.at(0).spring_N.size(), lines = here.size();
+                                   const std::vector<ChainTrace>& chains) const {
+  const std::size_t rows = chains.at(0).spring_N.size(), lines = chains.size();
   Eigen::MatrixXd slopes =
       Eigen::MatrixXd::Zero(Eigen::Index(lines * unknown_.size()), Eigen::Index(rows));
   for (std::size_t c = 0; c < unknown_.size(); ++c) {
@@ -113,8 +113,8 @@ Eigen::MatrixXd PoseSearch::slopes(const std::vector<JointSignals>& signals,
     const auto moved = chains_(perturbed);
     for (std::size_t k = 0; k < rows; ++k)
       for (std::size_t a = 0; a < lines; ++a) {
-        const double slope = (moved[a].spring_N[k] - here[a].spring_N[k]) / perturbation_rad;
-        if (std::isfinite(slope) && here[a].tension_N[k] > slack_N)
+        const double slope = (moved[a].spring_N[k] - chains[a].spring_N[k]) / perturbation_rad;
+        if (std::isfinite(slope) && chains[a].tension_N[k] > slack_N)
           slopes(Eigen::Index(c * lines + a), Eigen::Index(k)) = slope;
       }
   }
@@ -122,34 +122,34 @@ Eigen::MatrixXd PoseSearch::slopes(const std::vector<JointSignals>& signals,
 }
 
 void PoseSearch::refine(std::vector<JointSignals>& signals, int steps, int slopes_every) const {
-  change(signals, fill_forward);
+  change_missing(signals, fill_forward);
   std::vector<char> determined;
   Eigen::MatrixXd slope;
   for (int n = 0; n < steps; ++n) {
-    const auto here = chains_(signals);
-    if (n % slopes_every == 0) slope = slopes(signals, here);
+    const auto chains = chains_(signals);
+    if (n % slopes_every == 0) slope = slopes(signals, chains);
     determined.assign(std::size_t(slope.cols()), 0);
     Eigen::VectorXd step = Eigen::VectorXd::Zero(Eigen::Index(unknown_.size()));
-    const double kept = damper_s_ / (damper_s_ + period_s_);
+    const double damper_weight = damper_s_ / (damper_s_ + period_s_);
     for (std::size_t k = 0; k < determined.size(); ++k) {
       const Eigen::Map<const Eigen::MatrixXd> at(slope.col(Eigen::Index(k)).data(),
-                                                 Eigen::Index(here.size()),
+                                                 Eigen::Index(chains.size()),
                                                  Eigen::Index(unknown_.size()));
-      const Eigen::VectorXd of_springs = step_at(k, here, at);
-      determined[k] = of_springs.size() > 0;
-      if (determined[k]) step = kept * step + (1 - kept) * of_springs;
+      const Eigen::VectorXd spring_step = step_at(k, chains, at);
+      determined[k] = spring_step.size() > 0;
+      if (determined[k]) step = damper_weight * step + (1 - damper_weight) * spring_step;
       else step.setZero();
       for (Eigen::Index c = 0; c < step.size(); ++c)
         turn(signals, unknown_[std::size_t(c)], k, step[c]);
     }
-    change(signals, [&](Signal& signal) { smooth(signal, period_s_); });
+    change_missing(signals, [&](Signal& signal) { smooth(signal, period_s_); });
   }
-  const auto around = static_cast<std::size_t>(edge_s / period_s_);
-  change(signals, [&](Signal& signal) {
+  const auto edge_rows = static_cast<std::size_t>(edge_s / period_s_);
+  change_missing(signals, [&](Signal& signal) {
     for (std::size_t k = 0; k < signal.size(); ++k)
       if (!determined[k])
-        for (std::size_t n = k < around ? 0 : k - around;
-             n < std::min(signal.size(), k + around + 1); ++n)
+        for (std::size_t n = k < edge_rows ? 0 : k - edge_rows;
+             n < std::min(signal.size(), k + edge_rows + 1); ++n)
           signal[n] = recording::not_taken;
   });
 }

@@ -25,8 +25,8 @@ double noise_of(const Signal& signal) {
         !std::isnan(d))
       square.push_back(d * d);
   if (square.empty()) return 0;
-  constexpr double median_of_chi_square = 0.455;
-  return std::sqrt(median(square) / 20 / median_of_chi_square);
+  constexpr double median_of_chi_square = 0.455, variance_factor = 20;  // 1 + 9 + 9 + 1
+  return std::sqrt(median(square) / variance_factor / median_of_chi_square);
 }
 
 }  // namespace sim::residuals

@@ -1,18 +1,20 @@
 #pragma once
 #include "sim/gap/residuals/episode.hpp"
 
-/// Median, rms and noise of a signal. Missing samples do not count.
+/// Median, rms and noise of a signal. Missing samples are ignored.
 namespace sim::residuals {
 
-/// The larger of the two middle values if their number is even. Reorders `values`; one at least, none
-/// missing.
+/// Median; of an even number of values the larger middle one. Reorders `values`: at least one,
+/// without NaN.
 double median(std::vector<double>& values);
 
-/// 0 without samples.
+/// Root mean square; 0 without samples.
 double rms(const Signal& signal);
 
-/// Noise of a signal without a data sheet, in its unit (standard deviation), from its third differences: they remove
-/// nearly all motion and have 20 times the noise's variance.
+/// Standard deviation of the noise of a signal, in its unit, from its third differences d. They
+/// remove nearly all motion and have 20 times the variance of the noise:
+///
+///   σ² = median(d²)/(20 · 0.455)      0.455: median of χ² with one degree of freedom
 double noise_of(const Signal& signal);
 
 }  // namespace sim::residuals

@@ -8,7 +8,7 @@
 namespace sim::residuals {
 namespace {
 
-constexpr double spacing_rad = 1e-3;  // of the points of a table
+constexpr double spacing_rad = 1e-3;  // of the points of a table; chosen
 
 std::pair<double, double> range_of(const Signal& signal) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -25,7 +25,7 @@ Vec3 gravity_of(const erp::Robot& robot) {
 }  // namespace
 
 void PathTrace::smooth(double period_s, double speed_half_width_s) {
-  constexpr double mean_half_width_s = 0.03;
+  constexpr double mean_half_width_s = 0.03;  // chosen: as the windows of the stages
   rate_m_per_s = Bump(speed_half_width_s, period_s).rates(length_m);
   const Bump wide(mean_half_width_s, period_s);
   mean_m = length_m;
@@ -40,9 +40,9 @@ bool was_measured(const JointSignals& joint, erp::JointType type) {
 }
 
 Skeletal::Skeletal(const erp::Robot& robot) : tree_(robot), model_(tree_, gravity_of(robot)) {
-  std::vector<JointReading> start;
-  for (const erp::Joint& joint : tree_.joints) start.push_back(initial_reading(joint));
-  model_.place(start);
+  std::vector<JointReading> initial_pose;
+  for (const erp::Joint& joint : tree_.joints) initial_pose.push_back(initial_reading(joint));
+  model_.place(initial_pose);
   for (const erp::Actuator& actuator : robot.actuators) {
     loads_.push_back(-1);
     if (actuator.tendon.path.empty()) {  // a drive
@@ -53,7 +53,7 @@ Skeletal::Skeletal(const erp::Robot& robot) : tree_(robot), model_(tree_, gravit
     }
     const Routing routing(actuator.tendon, tree_.names);
     Tendon tendon{routing, levers_of(routing, model_), routing.solve(model_.poses()), 0, {}};
-    tendon.start_m = tendon.shape.length_m;
+    tendon.initial_length_m = tendon.shape.length_m;
     for (int j = 0; j < static_cast<int>(tree_.joints.size()); ++j)
       for (const int c : tendon.levers.coordinates)
         if (c >= model_.first_of(j) && model_.first_of(j) >= 0 &&
@@ -96,7 +96,7 @@ const Signal* Skeletal::only_angle(std::size_t actuator,
   return high - low < spacing_rad * double(angle.size()) ? &angle : nullptr;
 }
 
-/// Linear interpolation: with a moment arm that changes by 0.1 m/rad the error is 10 nm.
+/// Interpolates linearly. If the moment arm changes by 0.1 m/rad, the error is 10 nm.
 PathTrace Skeletal::path_by_table(std::size_t actuator, const Signal& angle_rad) {
   Tendon& tendon = *tendons_[actuator];
   const auto [low, high] = range_of(angle_rad);
@@ -115,10 +115,10 @@ PathTrace Skeletal::path_by_table(std::size_t actuator, const Signal& angle_rad)
   }
   for (std::size_t k = 0; k < angle_rad.size(); ++k) {
     if (std::isnan(angle_rad[k])) continue;
-    const double at = (angle_rad[k] - low) / spacing_rad;
-    const auto n = std::min(static_cast<std::size_t>(at), points - 2);
-    trace.length_m[k] = std::lerp(length[n], length[n + 1], at - double(n));
-    trace.wrap_rad[k] = std::lerp(wrap[n], wrap[n + 1], at - double(n));
+    const double position = (angle_rad[k] - low) / spacing_rad;
+    const auto n = std::min(static_cast<std::size_t>(position), points - 2);
+    trace.length_m[k] = std::lerp(length[n], length[n + 1], position - double(n));
+    trace.wrap_rad[k] = std::lerp(wrap[n], wrap[n + 1], position - double(n));
   }
   return trace;
 }
@@ -126,7 +126,7 @@ PathTrace Skeletal::path_by_table(std::size_t actuator, const Signal& angle_rad)
 std::vector<PathTrace> Skeletal::paths(std::span<const JointSignals> joints, std::size_t rows,
                                        std::span<const std::size_t> actuators) {
   std::vector<PathTrace> traces(actuators.size());
-  std::vector<std::size_t> solved;  // those to be solved row by row
+  std::vector<std::size_t> solved;  // indices of the tendons that are solved row by row
   for (std::size_t n = 0; n < actuators.size(); ++n) {
     const std::size_t a = actuators[n];
     if (const int load = loads_[a]; load >= 0) {
@@ -174,19 +174,19 @@ Motion Skeletal::motion(std::span<const JointSignals> joints, const Bump& bump,
       if (first >= 0) motion.acceleration[first] = bump.acceleration(angle, row);
     }
     if (r.type == erp::JointType::spherical) {
-      Eigen::Vector4d q, rate, bend;  // x y z w
+      Eigen::Vector4d q, rate, second_rate;  // x y z w
       for (int k = 0; k < 4; ++k) {
         const Signal& part = joints[j].quaternion[std::size_t((k + 1) % 4)];
         q[k] = bump.mean(part, row), rate[k] = bump.rate(part, row);
-        bend[k] = bump.acceleration(part, row);
+        second_rate[k] = bump.acceleration(part, row);
       }
       const double length = q.norm();
-      const Eigen::Quaterniond turned(Eigen::Vector4d(q / length));
-      const auto of = [&](const Eigen::Vector4d& d) -> Eigen::Vector3d {
-        return 2 * (turned.conjugate() * Eigen::Quaterniond(Eigen::Vector4d(d / length))).vec();
+      const Eigen::Quaterniond rotation(Eigen::Vector4d(q / length));
+      const auto in_child_frame = [&](const Eigen::Vector4d& d) -> Eigen::Vector3d {
+        return 2 * (rotation.conjugate() * Eigen::Quaterniond(Eigen::Vector4d(d / length))).vec();
       };
-      const Eigen::Vector3d omega = of(rate), alpha = of(bend);
-      r.position = {turned.w(), turned.x(), turned.y(), turned.z()};
+      const Eigen::Vector3d omega = in_child_frame(rate), alpha = in_child_frame(second_rate);
+      r.position = {rotation.w(), rotation.x(), rotation.y(), rotation.z()};
       r.velocity_rad_per_s = {omega.x(), omega.y(), omega.z()};
       if (first >= 0) motion.acceleration.segment<3>(first) = alpha;
     }
@@ -205,7 +205,7 @@ Eigen::VectorXd Skeletal::inverse(const Motion& motion) {
 std::vector<Eigen::MatrixXd> Skeletal::gradients(std::span<const Motion> motions,
                                                  std::span<const std::size_t> actuators) {
   const auto columns = static_cast<Eigen::Index>(motions.size());
-  std::vector<Eigen::MatrixXd> all(
+  std::vector<Eigen::MatrixXd> gradients(
       actuators.size(),
       Eigen::MatrixXd::Constant(model_.coordinates(), columns, recording::not_taken));
   for (Eigen::Index k = 0; k < columns; ++k) {
@@ -214,17 +214,18 @@ std::vector<Eigen::MatrixXd> Skeletal::gradients(std::span<const Motion> motions
     model_.place(motion.joints);
     for (std::size_t n = 0; n < actuators.size(); ++n) {
       if (!tendons_[actuators[n]]) {
-        all[n].col(k).setZero();
-        if (const int load = loads_[actuators[n]]; load >= 0) all[n](model_.first_of(load), k) = -1;
+        gradients[n].col(k).setZero();
+        if (const int load = loads_[actuators[n]]; load >= 0)
+          gradients[n](model_.first_of(load), k) = -1;
         continue;
       }
       Tendon& tendon = *tendons_[actuators[n]];
       tendon.routing.solve(model_.poses(), tendon.shape);
-      length_gradient(tendon.shape, tendon.levers, model_, row_);
-      all[n].col(k) = row_;
+      length_gradient(tendon.shape, tendon.levers, model_, gradient_);
+      gradients[n].col(k) = gradient_;
     }
   }
-  return all;
+  return gradients;
 }
 
 }  // namespace sim::residuals

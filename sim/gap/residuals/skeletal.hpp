@@ -9,22 +9,23 @@
 #include "sim/gap/residuals/episode.hpp"
 #include "sim/model/actuator/muscle_jacobian.hpp"
 
-/// The skeleton of a robot at a recording's joint angles: the tendons' paths at every row, and the inverse dynamics at
-/// a window.
+/// The skeleton of a robot at the joint angles of a recording: the paths of the tendons at every
+/// row, and the inverse dynamics at a window.
 namespace sim::residuals {
 
-/// A tendon's path over the rows; for a drive's transmission, −q of its load. Empty if a joint that it crosses was not
-/// measured.
+/// The path of a tendon at every row; for the transmission of a drive, −q of its load. Empty if the
+/// tendon crosses a joint that was not measured.
 struct PathTrace {
   Signal length_m, wrap_rad;
-  /// Rate and mean of `length_m` under windows, set by `smooth`. Effects with state use the mean, for noise would
-  /// reduce a hysteresis.
+  /// Rate and mean of `length_m` under windows, set by `smooth`. Effects with state use the mean
+  /// because noise would reduce a hysteresis.
   Signal rate_m_per_s = {}, mean_m = {};
 
   void smooth(double period_s, double speed_half_width_s);
 };
 
-/// Angles, speeds and accelerations under a window; for spherical joints ω and its rate in the child's frame.
+/// Means of angles, speeds and accelerations under a window. For spherical joints, ω and its rate
+/// in the child's frame.
 struct Motion {
   std::vector<JointReading> joints;
   Eigen::VectorXd acceleration;
@@ -55,9 +56,9 @@ class Skeletal {
   std::vector<std::size_t> crossed_by(std::size_t actuator) const;
   int first_of(int joint) const { return model_.first_of(joint); }
   int coordinates() const { return model_.coordinates(); }
-  /// The length at the initial pose.
-  double start_m(std::size_t actuator) const {
-    return (tendons_[actuator] ? tendons_[actuator]->start_m : 0);
+  /// The length of a tendon's path at the initial pose; 0 for a drive.
+  double initial_length_m(std::size_t actuator) const {
+    return (tendons_[actuator] ? tendons_[actuator]->initial_length_m : 0);
   }
 
  private:
@@ -65,20 +66,21 @@ class Skeletal {
     Routing routing;
     Levers levers;
     PathShape shape;
-    double start_m;
+    double initial_length_m;
     std::vector<int> crossed;  ///< joints
   };
   JointReading reading(const JointSignals& joint, std::size_t j, std::size_t row) const;
-  /// The angle of a tendon's only joint, a hinge; its length is then interpolated in a table. Null: it crosses other
-  /// joints, or the range of the angle is so large that a table does not save time.
+  /// The angle of the hinge if a tendon crosses only one hinge; its length is then interpolated in
+  /// a table. Null: the tendon crosses other joints, or the range of the angle is too large for a
+  /// table to save time.
   const Signal* only_angle(std::size_t actuator, std::span<const JointSignals> joints) const;
   PathTrace path_by_table(std::size_t actuator, const Signal& angle_rad);
 
   RobotTree tree_;
   SkeletonModel model_;
   std::vector<std::optional<Tendon>> tendons_;  ///< empty for a drive
-  std::vector<int> loads_;  ///< for drives, the joint of the load, L = −q; −1: none
-  Eigen::VectorXd row_, torque_;
+  std::vector<int> loads_;  ///< for drives, the joint of the load, L = −q; −1: no such joint
+  Eigen::VectorXd gradient_, torque_;
 };
 
 }  // namespace sim::residuals

@@ -14,7 +14,7 @@ namespace {
 using Eigen::MatrixXd;
 
 template <class T>
-std::shared_ptr<const T> keep(T value) {
+std::shared_ptr<const T> shared(T value) {
   return std::make_shared<const T>(std::move(value));
 }
 
@@ -25,11 +25,11 @@ double shaft_step_rad(const erp::Robot& robot, const erp::Actuator& actuator) {
   return SensorScale(robot.motor_of(actuator), sensors).shaft_rad_per_count;
 }
 
-/// For a robot whose tendon paths have changed.
+/// The joints without linearized paths, for a robot whose tendon paths have changed.
 std::shared_ptr<const JointTrace> without_nearby(const JointTrace& joints) {
   JointTrace copy = joints;
   copy.nearby = nullptr;
-  return keep(std::move(copy));
+  return shared(std::move(copy));
 }
 
 }  // namespace
@@ -41,14 +41,14 @@ Stages::Stages(const erp::Robot& robot, const Windows& windows)
 
 Reach Stages::reach(const effects::Placed& placed) const {
   const effects::About& about = effects::about(placed.effect);
-  const bool senses = about.stage == effects::Stage::sensor || about.type == "joint_play";
+  const bool is_sensor = about.stage == effects::Stage::sensor || about.type == "joint_play";
   if (about.type == "skeleton_link_flexibility") return {.joints = true, .bones = true};
   if (about.stage == effects::Stage::bus) return {};
   if (about.seat != effects::Seat::actuator)
-    return {.joints = about.seat == effects::Seat::joint && senses, .bones = true};
-  const auto& all = equipped_.robot.actuators;
+    return {.joints = about.seat == effects::Seat::joint && is_sensor, .bones = true};
+  const auto& actuators = equipped_.robot.actuators;
   const auto actuator = static_cast<std::size_t>(
-      std::ranges::find(all, placed.on, &erp::Actuator::name) - all.begin());
+      std::ranges::find(actuators, placed.on, &erp::Actuator::name) - actuators.begin());
   Reach reach{.line = about.stage != effects::Stage::motor, .chain = actuator};
   if (about.stage == effects::Stage::routing) reach.path = actuator;
   return reach;
@@ -68,12 +68,12 @@ Explanation Stages::explain(const Episode& episode) { return explain(episode, nu
 
 Explanation Stages::explain(const Episode& episode, std::shared_ptr<const JointTrace> guess) {
   const std::size_t count = equipped_.robot.actuators.size();
-  Explanation fresh;
-  fresh.joints = std::move(guess);
-  fresh.rows = windows_of(episode, windows_);
-  fresh.paths.resize(count), fresh.gradients.resize(count);
-  fresh.chains.resize(count), fresh.chain_residuals.resize(count);
-  return renew(episode, std::move(fresh), {true, true, each(count), each(count)});
+  Explanation explanation;
+  explanation.joints = std::move(guess);
+  explanation.rows = windows_of(episode, windows_);
+  explanation.paths.resize(count), explanation.gradients.resize(count);
+  explanation.chains.resize(count), explanation.chain_residuals.resize(count);
+  return recompute(episode, std::move(explanation), {true, true, each(count), each(count)});
 }
 
 Explanation Stages::explain(const Episode& episode, const Explanation& base, const Reach& reach) {
@@ -86,7 +86,7 @@ Explanation Stages::explain(const Episode& episode, const Explanation& base, con
   Touched touched{false, reach.bones, {}, {}};
   if (reach.path) touched.paths = {*reach.path};
   if (reach.chain) touched.chains = {*reach.chain};
-  return renew(episode, base, touched);
+  return recompute(episode, base, touched);
 }
 
 ChainTrace Stages::chain(const Episode& episode, std::size_t a, const PathTrace& path,
@@ -94,52 +94,52 @@ ChainTrace Stages::chain(const Episode& episode, std::size_t a, const PathTrace&
   const erp::Actuator& actuator = equipped_.robot.actuators[a];
   return trace({equipped_.robot.motor_of(actuator), actuator,
                 effects::Acting(equipped_.acting, actuator.name, effects::Seat::actuator),
-                bones_.start_m(a), shaft_step_rad(equipped_.robot, actuator)},
+                bones_.initial_length_m(a), shaft_step_rad(equipped_.robot, actuator)},
                episode.actuators[a], path, episode.period_s, windows_.speed_half_width_s, other);
 }
 
 std::vector<PathTrace> Stages::paths(const Episode& episode, const JointTrace& joints,
                                      std::span<const std::size_t> actuators) {
-  std::vector<PathTrace> all = joints.nearby
-                                   ? paths_nearby(joints, actuators)
-                                   : bones_.paths(joints.signals, episode.rows, actuators);
-  for (PathTrace& path : all) path.smooth(episode.period_s, windows_.speed_half_width_s);
-  return all;
+  std::vector<PathTrace> paths = joints.nearby
+                                     ? paths_nearby(joints, actuators)
+                                     : bones_.paths(joints.signals, episode.rows, actuators);
+  for (PathTrace& path : paths) path.smooth(episode.period_s, windows_.speed_half_width_s);
+  return paths;
 }
 
 std::vector<PathTrace> Stages::paths_nearby(const JointTrace& joints,
                                             std::span<const std::size_t> actuators) const {
-  const PathsNearby& near = *joints.nearby;
+  const PathsNearby& linearized = *joints.nearby;
   std::vector<PathTrace> paths;
   for (const std::size_t a : actuators) {
-    PathTrace& path = paths.emplace_back(near.paths[a]);
-    for (std::size_t h = 0; h < near.hinges.size() && !path.length_m.empty(); ++h) {
-      const Signal& is = joints.signals[near.hinges[h]].angle_rad;
-      const Signal& was = near.pose[near.hinges[h]].angle_rad;
+    PathTrace& path = paths.emplace_back(linearized.paths[a]);
+    for (std::size_t h = 0; h < linearized.hinges.size() && !path.length_m.empty(); ++h) {
+      const Signal& angle = joints.signals[linearized.hinges[h]].angle_rad;
+      const Signal& linearized_at = linearized.pose[linearized.hinges[h]].angle_rad;
       for (std::size_t k = 0; k < path.length_m.size(); ++k)
-        path.length_m[k] += near.slope_m[a][h][k] * (is[k] - was[k]);
+        path.length_m[k] += linearized.slope_m[a][h][k] * (angle[k] - linearized_at[k]);
     }
   }
   return paths;
 }
 
-Explanation Stages::renew(const Episode& episode, Explanation e, const Touched& touched) {
-  if (touched.joints) e.joints = keep(joint_trace(episode, e.rows, e.joints.get()));
+Explanation Stages::recompute(const Episode& episode, Explanation e, const Touched& touched) {
+  if (touched.joints) e.joints = shared(joint_trace(episode, e.rows, e.joints.get()));
   auto paths = this->paths(episode, *e.joints, touched.paths);
   auto gradients = bones_.gradients(e.joints->motions, touched.paths);
   for (std::size_t n = 0; n < touched.paths.size(); ++n) {
-    e.paths[touched.paths[n]] = keep(std::move(paths[n]));
-    e.gradients[touched.paths[n]] = keep(std::move(gradients[n]));
+    e.paths[touched.paths[n]] = shared(std::move(paths[n]));
+    e.gradients[touched.paths[n]] = shared(std::move(gradients[n]));
   }
   const erp::Robot& robot = equipped_.robot;
   for (const std::size_t a : touched.chains) {
     const erp::Actuator& actuator = robot.actuators[a];
-    e.chains[a] = keep(chain(episode, a, *e.paths[a], e.chains[a].get()));
+    e.chains[a] = shared(chain(episode, a, *e.paths[a], e.chains[a].get()));
     const Bump bump(windows_.half_width_s, episode.period_s);
-    e.chain_residuals[a] = keep(
+    e.chain_residuals[a] = shared(
         chain_residuals(*e.chains[a], actuator, robot.motor_of(actuator), episode, bump, e.rows));
   }
-  if (touched.bones) e.bones = keep(bones(episode, *e.joints, e.rows));
+  if (touched.bones) e.bones = shared(bones(episode, *e.joints, e.rows));
   e.residuals.clear();
   for (const auto& residuals : e.chain_residuals)
     e.residuals.insert(e.residuals.end(), residuals->begin(), residuals->end());

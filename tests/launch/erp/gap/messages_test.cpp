@@ -34,7 +34,7 @@ TEST_CASE("parameters that are not fitted are printed with the fitted ones") {
 
 TEST_CASE("an answer that does not reduce the free-run error causes a warning") {
   const auto warning = [](double before, double after) {
-    sim::diagnosis::Closed run{.unit = "noise", .before = before, .floor = 1, .after = after};
+    sim::diagnosis::ClosedGap run{.unit = "noise", .before = before, .floor = 1, .after = after};
     run.closed = (before - after) / (before - 1);
     sim::diagnosis::Diagnosis diagnosis;
     diagnosis.verdict = sim::diagnosis::Verdict::supported;
@@ -51,7 +51,7 @@ TEST_CASE("an answer that does not reduce the free-run error causes a warning") 
 }
 
 TEST_CASE("a large free-run error of a model without a gap causes a warning") {
-  sim::diagnosis::Closed run{.unit = "noise", .before = 15, .floor = 1, .after = 15};
+  sim::diagnosis::ClosedGap run{.unit = "noise", .before = 15, .floor = 1, .after = 15};
   CHECK_THAT(launch::gap::free_run_warning({}, run), Catch::Contains("15 times"));
   run.before = run.after = 1.2;
   CHECK(launch::gap::free_run_warning({}, run).empty());

@@ -54,7 +54,7 @@ TEST_CASE("every tendon of every robot starts at its pretension") {
   }
 }
 
-TEST_CASE("friction of one chain slows that chain only") {
+TEST_CASE("friction in one actuator channel slows only that channel") {
   const erp::Robot robot = hinge_rig();
   const auto shaft_after = [&](const HiddenEffects& hidden_effects) {
     Plant plant(robot, hidden_effects);
@@ -63,27 +63,27 @@ TEST_CASE("friction of one chain slows that chain only") {
     return plant.shaft_rad(0);
   };
   const double nominal = shaft_after(no_effects(robot));
-  HiddenEffects with_friction = no_effects(robot), other = no_effects(robot);
-  with_friction.chains[0].dry_Nm = 1;
-  other.chains[1].dry_Nm = 1;
+  HiddenEffects with_friction = no_effects(robot), friction_in_other = no_effects(robot);
+  with_friction.channels[0].dry_Nm = 1;
+  friction_in_other.channels[1].dry_Nm = 1;
   CHECK(shaft_after(with_friction) < 0.95 * nominal);
-  CHECK(shaft_after(other) == Approx(nominal).epsilon(0.01));
+  CHECK(shaft_after(friction_in_other) == Approx(nominal).epsilon(0.01));
 }
 
-TEST_CASE("a seed always draws the same case, other seeds draw others") {
+TEST_CASE("a seed always draws the same case, and other seeds draw other cases") {
   const erp::Robot robot = hinge_rig();
-  const auto one = draw_case(robot, Kind::pair, 7), same = draw_case(robot, Kind::pair, 7);
-  REQUIRE(one.hidden.size() == 2);
-  CHECK(one.hidden[0].type == same.hidden[0].type);
-  CHECK(one.hidden[1].parameters == same.hidden[1].parameters);
-  int others = 0;
+  const auto first = draw_case(robot, Kind::pair, 7), same = draw_case(robot, Kind::pair, 7);
+  REQUIRE(first.hidden.size() == 2);
+  CHECK(first.hidden[0].type == same.hidden[0].type);
+  CHECK(first.hidden[1].parameters == same.hidden[1].parameters);
+  int different = 0;
   for (std::uint64_t seed = 8; seed < 18; ++seed)
-    others += draw_case(robot, Kind::pair, seed).hidden[0].type != one.hidden[0].type;
-  CHECK(others > 5);
+    different += draw_case(robot, Kind::pair, seed).hidden[0].type != first.hidden[0].type;
+  CHECK(different > 5);
   CHECK_THROWS_AS(kind_of("singles"), std::invalid_argument);
 }
 
-TEST_CASE("kind many: 8 to 12 constants deviate by 2 to 10 %, all others are as described") {
+TEST_CASE("a case of kind many has 8 to 12 constants that deviate by 2 to 10 %") {
   const erp::Robot robot = hinge_rig();
   HiddenEffects unchanged = no_effects(robot);
   const AsBuilt exact = as_built(robot, 0, 1, unchanged);
@@ -91,16 +91,16 @@ TEST_CASE("kind many: 8 to 12 constants deviate by 2 to 10 %, all others are as 
   for (std::uint64_t seed = 1; seed < 20; ++seed) {
     const AsBuilt built = draw_case(robot, Kind::many, seed).built;
     REQUIRE(built.drawn.size() == exact.drawn.size());
-    int off = 0;
+    int deviating = 0;
     for (std::size_t k = 0; k < exact.drawn.size(); ++k) {
       const double error = std::abs(built.drawn[k].value / exact.drawn[k].value - 1);
       if (error < 1e-12 || exact.drawn[k].name == "torque_Nm_per_A")
         continue;  // K_T shares its factor with K_E
-      ++off;
+      ++deviating;
       CHECK(error >= 0.02 * (1 - 1e-9));
       CHECK(error <= 0.10 * (1 + 1e-9));
     }
-    counts.push_back(off);
+    counts.push_back(deviating);
   }
   CHECK(std::ranges::min(counts) >= 8);
   CHECK(std::ranges::max(counts) <= 12);
@@ -109,25 +109,27 @@ TEST_CASE("kind many: 8 to 12 constants deviate by 2 to 10 %, all others are as 
 
 TEST_CASE("an effect that is not visible in any reading is drawn again") {
   const erp::Robot robot = hinge_rig();
-  const Visibility shows(robot);
+  const Visibility is_visible(robot);
   HiddenEffects nothing = no_effects(robot), sag = nothing, heavy = nothing;
-  sag.chains[0].source_ohm = 1e-4;
+  sag.channels[0].source_ohm = 1e-4;
   heavy.bodies["forearm"].mass = 0.3;
-  CHECK_FALSE(shows(nothing));
-  CHECK_FALSE(shows(sag));
-  CHECK(shows(heavy));
+  CHECK_FALSE(is_visible(nothing));
+  CHECK_FALSE(is_visible(sag));
+  CHECK(is_visible(heavy));
   int calls = 0;
-  const auto third = [&](const HiddenEffects&) { return ++calls == 3; };
-  const Case drawn = draw_case(robot, Kind::single, 7, {}, third);
-  CHECK(drawn.drawn_anew == 2);
+  const auto third_is_visible = [&](const HiddenEffects&) { return ++calls == 3; };
+  const Case drawn = draw_case(robot, Kind::single, 7, {}, third_is_visible);
+  CHECK(drawn.rejected_draws == 2);
   CHECK(drawn.hidden.size() == 1);
 }
 
-TEST_CASE("the joint load of the elbow is half the sum of tension limits times levers") {
-  CHECK(joint_load_Nm(hinge_rig(), 0) == Approx(2 * 150 * 0.025 / 2).epsilon(0.01));
+TEST_CASE("the joint load of the elbow is half the sum of tension limits times moment arms") {
+  constexpr double tendons = 2, max_tension_N = 150, moment_arm_m = 0.025;  // of hinge_rig
+  CHECK(joint_load_Nm(hinge_rig(), 0) ==
+        Approx(tendons * max_tension_N * moment_arm_m / 2).epsilon(0.01));
 }
 
-TEST_CASE("an eccentric disc reads the angle of the ray from its centre to the head") {
+TEST_CASE("an encoder with an eccentric disc reads the angle between disc centre and head") {
   erp::Robot robot = hinge_rig();
   const auto angles = [&](double sine) {
     Case blind = draw_case(robot, Kind::null, 1);
@@ -135,12 +137,13 @@ TEST_CASE("an eccentric disc reads the angle of the ray from its centre to the h
     const auto table = record(robot, blind, sim::excitation(robot, 0, 4, 1), 1);
     return table.find("elbow.angle_rad")->values;
   };
-  const auto plain = angles(0), off = angles(0.2);
+  constexpr double eccentricity = 0.2;
+  const auto centred = angles(0), eccentric = angles(eccentricity);
   double worst_rad = 0;
-  for (std::size_t k = 0; k < plain.size(); ++k) {
-    const double q = plain[k];
-    const double ray = q + std::atan2(0.2 * std::sin(q), 1 - 0.2 * std::cos(q));
-    worst_rad = std::fmax(worst_rad, std::abs(off[k] - ray));
+  for (std::size_t k = 0; k < centred.size(); ++k) {
+    const double q = centred[k];
+    const double ray = q + std::atan2(eccentricity * std::sin(q), 1 - eccentricity * std::cos(q));
+    worst_rad = std::fmax(worst_rad, std::abs(eccentric[k] - ray));
   }
   CHECK(worst_rad < 0.004);  // noise and quantization of both readings
 }

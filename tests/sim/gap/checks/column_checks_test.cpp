@@ -16,27 +16,27 @@ namespace {
 
 erp::Robot hinge_rig() { return erp::read_robot(rigs::config("hinge_rig/robot.xml")); }
 
-/// The messages on a recording of the rig after a change of its signals.
+/// The messages about a recording of the rig after a change of its signals.
 template <class Change>
 std::vector<std::string> messages_after(Change change) {
-  static const Episode plain = rig_recording::record(hinge_rig(), hinge_rig(), {.seconds = 8});
-  Episode episode = plain;
+  static const Episode unchanged = rig_recording::record(hinge_rig(), hinge_rig(), {.seconds = 8});
+  Episode episode = unchanged;
   change(episode);
   return sim::checks::column_checks(episode, hinge_rig());
 }
 
-void scale(Signal& signal, double by) {
-  for (double& x : signal) x *= by;
+void scale(Signal& signal, double factor) {
+  for (double& x : signal) x *= factor;
 }
 
-/// Checks that there is one message, on this column, with this text.
+/// Checks that there is one message, that it names this column, and that it contains this text.
 void check_reports(const std::vector<std::string>& messages, const char* column, const char* text) {
   REQUIRE(messages.size() == 1);
   CHECK_THAT(messages[0],
              Catch::StartsWith(std::string("run: ") + column) && Catch::Contains(text));
 }
 
-/// A force control drives a slide of 40 kg back and forth.
+/// A recording of a force-controlled slide of 40 kg that moves back and forth.
 Episode slide_recording(const erp::Robot& robot) {
   constexpr double row_s = 1e-3, mass_kg = 40, gain_N = 30;
   std::vector<double> control, position, time;
@@ -76,19 +76,19 @@ TEST_CASE("a column in a wrong unit gives one message with the probable unit") {
                 "flexor.tension_N", "check its unit");
 }
 
-TEST_CASE("a column of wrong sign gives one message on this column") {
-  const auto turned = [](auto signal_of) {
+TEST_CASE("a column of wrong sign gives one message that names this column") {
+  const auto negated = [](auto signal_of) {
     return messages_after([&](Episode& e) { scale(signal_of(e), -1); });
   };
   for (const std::size_t a : {0U, 1U}) {
     const std::string name = a == 0 ? "flexor" : "extensor";
-    check_reports(turned([&](Episode& e) -> Signal& { return e.actuators[a].voltage_V; }),
+    check_reports(negated([&](Episode& e) -> Signal& { return e.actuators[a].voltage_V; }),
                   (name + ".voltage_V").c_str(), "multiply the column by -1");
-    check_reports(turned([&](Episode& e) -> Signal& { return e.actuators[a].current_A; }),
+    check_reports(negated([&](Episode& e) -> Signal& { return e.actuators[a].current_A; }),
                   (name + ".current_A").c_str(), "multiply the column by -1");
-    check_reports(turned([&](Episode& e) -> Signal& { return e.actuators[a].shaft_rad; }),
+    check_reports(negated([&](Episode& e) -> Signal& { return e.actuators[a].shaft_rad; }),
                   (name + ".shaft_rad").c_str(), "multiply the column by -1");
-    check_reports(turned([&](Episode& e) -> Signal& { return e.actuators[a].tension_N; }),
+    check_reports(negated([&](Episode& e) -> Signal& { return e.actuators[a].tension_N; }),
                   (name + ".tension_N").c_str(), "multiply the column by -1");
   }
 }
@@ -100,7 +100,7 @@ TEST_CASE("a wrong elbow sign on a symmetric rig gives exchanged muscles as an a
                               Catch::Contains("; or flexor and extensor seem exchanged in all"));
 }
 
-TEST_CASE("two exchanged columns give one message on both") {
+TEST_CASE("two exchanged columns give one message that names both") {
   check_reports(messages_after([](Episode& e) {
                   std::swap(e.actuators[0].tension_N, e.actuators[1].tension_N);
                 }),
@@ -124,7 +124,7 @@ TEST_CASE("a wrong sign and a wrong unit in two columns give two messages") {
              Catch::Contains("flexor.voltage_V") && Catch::Contains("extensor.tension_N"));
 }
 
-TEST_CASE("the same wrong unit on both sides gives two messages without alternatives") {
+TEST_CASE("the same wrong unit of both currents gives two messages without alternatives") {
   const auto messages = messages_after([](Episode& e) {
     for (auto& actuator : e.actuators) scale(actuator.current_A, 1000);
   });
@@ -138,19 +138,19 @@ TEST_CASE("a tension scaled by 0.3 gives no message") {
   CHECK(messages_after([](Episode& e) { scale(e.actuators[0].tension_N, 0.3); }).empty());
 }
 
-TEST_CASE("a constant column while others change gives one message on this column") {
-  const auto stuck = [](auto signal_of, double value) {
+TEST_CASE("a constant column while others change gives one message that names this column") {
+  const auto constant_at = [](auto signal_of, double value) {
     return messages_after([&](Episode& e) { std::ranges::fill(signal_of(e), value); });
   };
-  check_reports(stuck([](Episode& e) -> Signal& { return e.actuators[0].voltage_V; }, 0),
+  check_reports(constant_at([](Episode& e) -> Signal& { return e.actuators[0].voltage_V; }, 0),
                 "flexor.voltage_V is constant at 0 in the whole recording", "is dead");
-  check_reports(stuck([](Episode& e) -> Signal& { return e.actuators[0].current_A; }, 0.1),
+  check_reports(constant_at([](Episode& e) -> Signal& { return e.actuators[0].current_A; }, 0.1),
                 "flexor.current_A is constant at 0.1 in the whole recording", "is dead");
-  check_reports(stuck([](Episode& e) -> Signal& { return e.actuators[1].shaft_rad; }, 0),
+  check_reports(constant_at([](Episode& e) -> Signal& { return e.actuators[1].shaft_rad; }, 0),
                 "extensor.shaft_rad", "is dead");
-  check_reports(stuck([](Episode& e) -> Signal& { return e.actuators[1].tension_N; }, 0),
+  check_reports(constant_at([](Episode& e) -> Signal& { return e.actuators[1].tension_N; }, 0),
                 "extensor.tension_N", "is dead");
-  check_reports(stuck([](Episode& e) -> Signal& { return e.joints[0].angle_rad; }, 0.2),
+  check_reports(constant_at([](Episode& e) -> Signal& { return e.joints[0].angle_rad; }, 0.2),
                 "elbow.angle_rad", "is dead");
   check_reports(messages_after([](Episode& e) {
                   auto& current = e.actuators[0].current_A;
@@ -160,23 +160,23 @@ TEST_CASE("a constant column while others change gives one message on this colum
 }
 
 TEST_CASE(
-    "little motion reveals a current that is constant in the whole recording, not one that freezes "
-    "later") {
-  const auto slow_from = [](std::size_t from) {
+    "with little motion a current that is constant in the whole recording is reported, a current "
+    "that is constant from 1 s on is not") {
+  const auto constant_from = [](std::size_t first_row) {
     Episode e = rig_recording::record(hinge_rig(), hinge_rig(),
                                       {.seconds = 8, .swing_N = 2, .ripple_N = 1});
     auto& current = e.actuators[0].current_A;
-    std::fill(current.begin() + std::ptrdiff_t(from), current.end(), 0.1);
+    std::fill(current.begin() + std::ptrdiff_t(first_row), current.end(), 0.1);
     return sim::checks::column_checks(e, hinge_rig());
   };
-  check_reports(slow_from(0), "flexor.current_A is constant at 0.1 in the whole recording",
+  check_reports(constant_from(0), "flexor.current_A is constant at 0.1 in the whole recording",
                 "is dead");
-  CHECK(slow_from(500).empty());
+  CHECK(constant_from(500).empty());
 }
 
 TEST_CASE(
-    "a tension at the end of its range gives a message; one in another unit gives only the "
-    "unit's") {
+    "a tension at the end of its range gives a message about the range, a tension in another unit "
+    "only one about the unit") {
   const double range_N = hinge_rig().sensors_of(hinge_rig().actuators[0]).tension_range_N;
   check_reports(messages_after([&](Episode& e) {
                   auto& tension = e.actuators[0].tension_N;
@@ -193,16 +193,17 @@ TEST_CASE("constant voltage and current of an idle motor give no message") {
         }).empty());
 }
 
-TEST_CASE("wrong sign, unit and dead encoder of a drive give messages with its column names") {
+TEST_CASE(
+    "wrong signs, wrong units and a dead encoder of a drive give messages with its column names") {
   erp::Robot robot;
   robot.name = "bench";
   erp::Drive drive;
   drive.name = "z", drive.control = erp::DriveControl::force, drive.gain = 30;
   drive.load = {erp::Slide{{}, 40, 0.01, 1e-6}};
   robot.drives = {drive};
-  const auto messages_scaled_by = [&](double times) {
+  const auto messages_scaled_by = [&](double factor) {
     Episode e = slide_recording(robot);
-    scale(e.actuators[0].shaft_rad, times);
+    scale(e.actuators[0].shaft_rad, factor);
     return sim::checks::column_checks(e, sim::residuals::as_chains(robot));
   };
   CHECK(messages_scaled_by(1).empty());
@@ -218,9 +219,10 @@ TEST_CASE("wrong sign, unit and dead encoder of a drive give messages with its c
   CHECK_THAT(messages_scaled_by(0)[0],
              Catch::Contains(
                  "z.position_m is constant at 0 in the whole recording while z.control_V changes"));
-  Episode undriven = slide_recording(robot);
-  std::ranges::fill(undriven.actuators[0].current_A, 0.5);
-  const auto messages = sim::checks::column_checks(undriven, sim::residuals::as_chains(robot));
+  Episode constant_command = slide_recording(robot);
+  std::ranges::fill(constant_command.actuators[0].current_A, 0.5);
+  const auto messages =
+      sim::checks::column_checks(constant_command, sim::residuals::as_chains(robot));
   REQUIRE(messages.size() == 1);
   CHECK_THAT(messages[0], Catch::Contains("z.control_V is constant") &&
                               Catch::Contains("while z.position_m changes"));

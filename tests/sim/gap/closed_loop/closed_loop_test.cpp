@@ -21,6 +21,7 @@ erp::Robot rig_with(const effects::Placed& effect) {
   return robot;
 }
 
+/// Set-points of slow motions.
 SetPoints slow(const erp::Robot& robot, double seconds) {
   return set_points_of(sim::excitation(robot, 0, seconds, 7));
 }
@@ -41,10 +42,10 @@ TEST_CASE("a predicted run follows its set-points and is reproduced bit by bit")
 }
 
 TEST_CASE(
-    "the hidden tendon damping closes 80 % of the error of a free run; another effect less than 50 "
-    "%") {
+    "the hidden tendon damping closes 80 % of the error of a free run, another effect closes less "
+    "than 50 %") {
   auto blind = blind_recording::nothing_hidden();
-  blind.hidden_effects.chains[1].damping = 150;  // extensor
+  blind.hidden_effects.channels[1].damping = 150;  // extensor
   const auto recordings = blind_recording::episodes(blind, 6, 2);
   const erp::Robot nominal = blind_recording::hinge_rig();
   const erp::Robot found = rig_with(placed("tendon_damping", "extensor", 150));
@@ -69,22 +70,24 @@ TEST_CASE("a recording without set-points in its first rows is used for the free
   CHECK(run.all.before < 3);  // 527 if the robot stayed at rest
 }
 
-TEST_CASE("single missing rows keep the last command; a gap of 30 rows excludes the recording") {
+TEST_CASE(
+    "in single missing rows the last command is held, and a gap of 30 rows excludes the "
+    "recording") {
   const erp::Robot robot = blind_recording::hinge_rig();
   auto recordings = blind_recording::episodes(blind_recording::nothing_hidden(), 6, 1);
-  const auto lose = [&](std::size_t first, std::size_t count) {
+  const auto remove_rows = [&](std::size_t first, std::size_t count) {
     for (auto& actuator : recordings[0].actuators)
       for (std::size_t k = first; k < first + count; ++k)
         actuator.mode[k] = actuator.reference[k] = actuator.shaft_rad[k] = recording::not_taken;
   };
-  for (std::size_t k = 100; k < 2900; k += 25) lose(k, 1);
+  for (std::size_t k = 100; k < 2900; k += 25) remove_rows(k, 1);
   const FreeRun run = free_run(robot, robot, recordings, {.threads = 1});
   CHECK(run.remarks.empty());
   CHECK(run.all.before < 3);
-  lose(1000, 30);
-  const FreeRun none = free_run(robot, robot, recordings, {.threads = 1});
-  REQUIRE(none.remarks.size() == 1);
-  CHECK_THAT(none.remarks[0], Catch::Contains("rows are missing at 2 s"));
+  remove_rows(1000, 30);
+  const FreeRun excluded = free_run(robot, robot, recordings, {.threads = 1});
+  REQUIRE(excluded.remarks.size() == 1);
+  CHECK_THAT(excluded.remarks[0], Catch::Contains("rows are missing at 2 s"));
 }
 
 namespace {
@@ -109,7 +112,7 @@ std::vector<sim::residuals::Episode> recorded_under(const LearnedEcu& ecu,
 
 }  // namespace
 
-TEST_CASE("the law of a foreign ECU is learned, and the free run uses it") {
+TEST_CASE("the law of an ECU with another firmware is learned, and the free run uses it") {
   const erp::Robot robot = blind_recording::hinge_rig();
   const LearnedEcu ecu = foreign_ecu();
   const auto recordings = recorded_under(ecu, robot);
@@ -131,17 +134,18 @@ TEST_CASE("the law of a foreign ECU is learned, and the free run uses it") {
 }
 
 TEST_CASE(
-    "the firmware predicts its own voltages within 5 % of their variance, also with a delay of 20 "
-    "ms") {
+    "the firmware leaves less than 5 % of the variance of its own voltages unexplained, without "
+    "and "
+    "with a command delay of 20 ms") {
   const erp::Robot robot = blind_recording::hinge_rig();
-  const auto own = blind_recording::episodes(blind_recording::nothing_hidden(), 6, 2);
-  CHECK(unexplained_by_firmware(own, robot) < 0.05);
+  const auto without_delay = blind_recording::episodes(blind_recording::nothing_hidden(), 6, 2);
+  CHECK(unexplained_by_firmware(without_delay, robot) < 0.05);
   auto delayed = blind_recording::nothing_hidden();
   delayed.hidden_effects.command_delay_s = 0.02;
   CHECK(unexplained_by_firmware(blind_recording::episodes(delayed, 6, 2), robot) < 0.05);
 }
 
-TEST_CASE("a recording that does not start in the initial pose is left out, with the reason") {
+TEST_CASE("a recording that does not start in the initial pose is omitted with the reason") {
   auto recordings = blind_recording::episodes(blind_recording::nothing_hidden(), 3, 1);
   const erp::Robot robot = blind_recording::hinge_rig();
   recordings[0].joints[0].angle_rad[0] += 0.3;
@@ -152,52 +156,54 @@ TEST_CASE("a recording that does not start in the initial pose is left out, with
 }
 
 TEST_CASE(
-    "the next experiment safely separates two frictions; for indistinguishable effects the split "
-    "is below 3") {
+    "the next experiment separates two frictions by more than 20 sigma and indistinguishable "
+    "effects "
+    "by less than 3") {
   const erp::Robot robot = blind_recording::hinge_rig();
   const ExperimentOptions quick{.seconds = 5, .candidates = 4};
   const auto coulomb = placed("gearbox_coulomb", "flexor", 0.03);
   const auto viscous = placed("gearbox_viscous", "flexor", 0.012);
-  const Experiment apart = next_experiment(robot, {coulomb, viscous}, quick);
-  CHECK(apart.candidates.front().least > 20);
-  CHECK(apart.candidates.front().least >= apart.candidates[1].least);
-  REQUIRE_FALSE(apart.chosen.reference.empty());
+  const Experiment separated = next_experiment(robot, {coulomb, viscous}, quick);
+  CHECK(separated.candidates.front().least_split > 20);
+  CHECK(separated.candidates.front().least_split >= separated.candidates[1].least_split);
+  REQUIRE_FALSE(separated.chosen.reference.empty());
   for (std::size_t a = 0; a < robot.actuators.size(); ++a) {
-    const bool force = apart.chosen.mode == erp::Mode::force;
-    CHECK(apart.chosen.reference[0][a] == (force ? robot.actuators[a].tendon.pretension_N : 0.0));
+    const bool force = separated.chosen.mode == erp::Mode::force;
+    CHECK(separated.chosen.reference[0][a] ==
+          (force ? robot.actuators[a].tendon.pretension_N : 0.0));
   }
-  CHECK(apart.candidates.front().extremes.of_max_tension < 0.85);
-  for (const Candidate& c : apart.candidates) {
-    CAPTURE(c.kind, c.extremes.saturated);
+  CHECK(separated.candidates.front().extremes.tension_fraction < 0.85);
+  for (const Candidate& c : separated.candidates) {
+    CAPTURE(c.kind, c.extremes.saturated_fraction);
     if (c.kind == 0)
-      CHECK(c.extremes.saturated > 0.5);  // steps over the full range saturate the motors
-    if (c.kind == 1) CHECK(c.extremes.saturated < 0.2);  // small tensions
+      CHECK(c.extremes.saturated_fraction > 0.5);  // steps over the full range saturate the motors
+    if (c.kind == 1) CHECK(c.extremes.saturated_fraction < 0.2);  // small tensions
   }
 
   const auto offset = placed("tendon_length_offset", "flexor", 4e-4);
   const auto shaft = placed("sensor_shaft_offset", "flexor", 4e-4 / 0.0045);
-  CHECK(next_experiment(robot, {offset, shaft}, quick).candidates.front().least < 3);
+  CHECK(next_experiment(robot, {offset, shaft}, quick).candidates.front().least_split < 3);
 }
 
 TEST_CASE("an excitation that overloads an actuator is not chosen") {
   erp::Robot robot = blind_recording::hinge_rig();
   for (erp::Actuator& actuator : robot.actuators) actuator.max_tension_N = 6;
-  const Experiment none = next_experiment(robot, {placed("gearbox_coulomb", "flexor", 0.03)},
-                                          {.seconds = 5, .candidates = 4});
-  CHECK(none.chosen.reference.empty());
-  CHECK_THAT(none.candidates[0].unsafe, Catch::Contains("of its limit"));
+  const Experiment rejected = next_experiment(robot, {placed("gearbox_coulomb", "flexor", 0.03)},
+                                              {.seconds = 5, .candidates = 4});
+  CHECK(rejected.chosen.reference.empty());
+  CHECK_THAT(rejected.candidates[0].unsafe, Catch::Contains("of its limit"));
 }
 
 TEST_CASE("an excitation that comes nearer to a stop than the margin is not chosen") {
   const erp::Robot robot = blind_recording::hinge_rig();
   const auto with_margin = [&](double margin_rad) {
     return next_experiment(robot, {placed("gearbox_coulomb", "flexor", 0.03)},
-                           {.seconds = 5, .candidates = 4, .to_stop_rad = margin_rad});
+                           {.seconds = 5, .candidates = 4, .stop_distance_rad = margin_rad});
   };
-  const Experiment none = with_margin(2);  // more than half of the elbow's range
-  CHECK(none.chosen.reference.empty());
-  CHECK_THAT(none.candidates[0].unsafe, Catch::Contains("elbow comes within"));
-  const Experiment some = with_margin(0.05);
-  REQUIRE_FALSE(some.chosen.reference.empty());
-  CHECK(some.candidates.front().extremes.to_stop_rad > 0.05);
+  const Experiment rejected = with_margin(2);  // more than half of the elbow's range
+  CHECK(rejected.chosen.reference.empty());
+  CHECK_THAT(rejected.candidates[0].unsafe, Catch::Contains("elbow comes within"));
+  const Experiment accepted = with_margin(0.05);
+  REQUIRE_FALSE(accepted.chosen.reference.empty());
+  CHECK(accepted.candidates.front().extremes.stop_distance_rad > 0.05);
 }

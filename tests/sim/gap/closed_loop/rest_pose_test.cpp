@@ -21,9 +21,9 @@ TEST_CASE("the simulated rest pose of the arm agrees with its static equilibrium
   }
 }
 
-TEST_CASE("a pose that is not reached in time is reported as not at rest") {
+TEST_CASE("a pose that is not reached within the longest simulation is reported as not at rest") {
   const erp::Robot arm = arm_poses::arm();
   const std::vector<std::vector<double>> shafts_rad{std::vector<double>(11, 3.0)};
-  const auto rest_poses = sim::closed_loop::rest_poses(arm, shafts_rad, {.most_s = 0.5});
+  const auto rest_poses = sim::closed_loop::rest_poses(arm, shafts_rad, {.longest_s = 0.5});
   CHECK_FALSE(rest_poses.front().at_rest);
 }

@@ -32,8 +32,9 @@ std::vector<std::string> names_of(const Indistinguishable& pair) {
 }  // namespace
 
 TEST_CASE(
-    "a gain error of the shaft sensor equals a torque constant and a spindle radius together, but "
-    "neither alone") {
+    "a gain error of the shaft sensor is reproduced by a torque constant with a spindle radius, "
+    "but "
+    "not by a single effect") {
   const Evaluator evaluator = rig_evaluator();
   CHECK(of_type(confounders(evaluator, {.share = 0.06, .most = 1}), "sensor_shaft_gain").empty());
   const auto two = of_type(confounders(evaluator, {.share = 0.06, .most = 2}), "sensor_shaft_gain");
@@ -45,9 +46,9 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("the effect most similar alone is replaced if two others reproduce the change better") {
-  const Evaluator evaluator =
-      rig_evaluator();  // alone, an offset is most similar to a drift of the angle
+TEST_CASE("the most similar single effect is replaced if two others reproduce the change better") {
+  // The single effect that is most similar to a drift of the angle is an offset.
+  const Evaluator evaluator = rig_evaluator();
   const auto found =
       of_type(confounders(evaluator, {.share = 0.05, .most = 2}), "sensor_joint_drift");
   REQUIRE(found.size() == 1);
@@ -56,29 +57,30 @@ TEST_CASE("the effect most similar alone is replaced if two others reproduce the
 }
 
 TEST_CASE(
-    "an effect with an indistinguishable one has that one as confounder, with the same remainder") {
+    "the confounder of an effect is the effect that is indistinguishable from it, with the same "
+    "remainder") {
   const Evaluator evaluator = rig_evaluator();
   const auto pairs = of_type(indistinguishable_effects(evaluator, 0.1), "gearbox_shaft_compliance");
-  const auto few = of_type(confounders(evaluator, {}), "gearbox_shaft_compliance");
-  REQUIRE(few.size() == 2);  // flexor and extensor
-  for (const Indistinguishable& pair : few) {
+  const auto found = of_type(confounders(evaluator, {}), "gearbox_shaft_compliance");
+  REQUIRE(found.size() == 2);  // flexor and extensor
+  for (const Indistinguishable& pair : found) {
     REQUIRE(pair.others.size() == 1);
-    const auto least = std::ranges::min_element(pairs, {}, [&](const Indistinguishable& t) {
+    const auto closest = std::ranges::min_element(pairs, {}, [&](const Indistinguishable& t) {
       return t.hidden.on == pair.hidden.on ? t.remaining : t.magnitude;
     });
-    CHECK(pair.remaining == Approx(least->remaining).epsilon(1e-3).margin(1e-4));
-    CHECK(pair.magnitude == Approx(least->magnitude));
+    CHECK(pair.remaining == Approx(closest->remaining).epsilon(1e-3).margin(1e-4));
+    CHECK(pair.magnitude == Approx(closest->magnitude));
   }
 }
 
-TEST_CASE("an effect is no confounder of another of its own type") {
+TEST_CASE("an effect is not a confounder of another effect of its type") {
   const Evaluator evaluator = rig_evaluator();
   std::vector<std::string> types;
   for (const auto& effect : sim::effects::library())
     types.emplace_back(sim::effects::about(effect).type);
-  for (const std::string& alone : types) {
+  for (const std::string& only_type : types) {
     auto others = types;
-    std::erase(others, alone);
+    std::erase(others, only_type);
     CHECK(confounders(evaluator, {.share = 1 - 1e-6, .withhold = others}).empty());
   }
 }

@@ -23,7 +23,7 @@ double value_of(const IdentifiedEffect& n, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("nothing hidden: the verdict is no gap") {
+TEST_CASE("the verdict without hidden effects is no gap") {
   const Diagnosis d = diagnose(hinge_rig(), episodes(nothing_hidden()));
   CHECK(d.verdict == Verdict::no_gap);
   CHECK(d.where.empty());
@@ -35,7 +35,7 @@ TEST_CASE(
     "90 % "
     "of the gap") {
   auto blind = nothing_hidden();
-  blind.hidden_effects.chains[1].viscous = 0.02;  // extensor
+  blind.hidden_effects.channels[1].viscous = 0.02;  // extensor
   const Diagnosis d = diagnose(hinge_rig(), episodes(blind));
   REQUIRE(d.verdict == Verdict::supported);
   REQUIRE(d.answer.size() == 1);
@@ -48,7 +48,7 @@ TEST_CASE(
   CHECK(d.where[0].stage == sim::effects::Stage::gearbox);
   CHECK(d.where[0].on == "extensor");
   CHECK(d.overall.closed > 0.9);
-  const auto stage = std::ranges::find(d.channels, "gearbox extensor", &Closed::channel);
+  const auto stage = std::ranges::find(d.channels, "gearbox extensor", &ClosedGap::channel);
   REQUIRE(stage != d.channels.end());
   CHECK(stage->closed > 0.9);
   CHECK(stage->interval.low <= stage->closed);
@@ -74,7 +74,7 @@ TEST_CASE(
 
 TEST_CASE("play of 0.03 rad in a joint sensor is identified within 5 %") {
   auto blind = nothing_hidden();
-  blind.hidden_effects.joints[0].loose_rad = 0.03;
+  blind.hidden_effects.joints[0].play_rad = 0.03;
   const Diagnosis d = diagnose(hinge_rig(), episodes(blind));
   REQUIRE(d.verdict == Verdict::supported);
   CHECK(d.answer[0].type == "joint_play");
@@ -82,9 +82,9 @@ TEST_CASE("play of 0.03 rad in a joint sensor is identified within 5 %") {
   CHECK(d.overall.closed > 0.9);
 }
 
-TEST_CASE("a withheld effect: the verdict is none of the known, at the right stage") {
+TEST_CASE("the verdict for a withheld effect is none of the known, at the true stage") {
   auto blind = nothing_hidden();
-  blind.hidden_effects.chains[0].dead_V = 0.4;  // flexor
+  blind.hidden_effects.channels[0].dead_V = 0.4;  // flexor
   const Diagnosis d = diagnose(hinge_rig(), episodes(blind), {.withhold = {"motor_dead_band"}});
   CHECK(d.verdict == Verdict::none_of_the_known);
   REQUIRE_FALSE(d.where.empty());
@@ -94,7 +94,7 @@ TEST_CASE("a withheld effect: the verdict is none of the known, at the right sta
 }
 
 TEST_CASE(
-    "quadratic drag: the verdict is none of the known, although viscous friction closes 90 % of "
+    "the verdict for quadratic drag is none of the known, although viscous friction closes 90 % of "
     "the gap") {
   auto blind = nothing_hidden();
   blind.hidden_effects.joints[0].drag = 0.12;  // grows with the square of the speed
@@ -108,9 +108,9 @@ TEST_CASE(
   CHECK(d.unexplained[0].shape->variable == "joint speed");
 }
 
-TEST_CASE("a motor resistance and a joint friction at once are both identified") {
+TEST_CASE("a motor resistance and a simultaneous joint friction are both identified") {
   auto blind = nothing_hidden();
-  blind.hidden_effects.chains[0].resistance = 0.3;
+  blind.hidden_effects.channels[0].resistance = 0.3;
   blind.hidden_effects.joints[0].viscous = 0.15;
   const Diagnosis d = diagnose(hinge_rig(), episodes(blind));
   CHECK(d.verdict == Verdict::supported);
@@ -128,18 +128,18 @@ TEST_CASE("a motor resistance and a joint friction at once are both identified")
   CHECK(std::abs(d.interaction) < 0.1);  // the effects act on different stages
 }
 
-TEST_CASE("a dead band on every muscle of a leg is identified on each") {
+TEST_CASE("a dead band on every muscle of a leg is identified on each muscle") {
   const erp::Robot leg = erp::read_robot(rigs::config("leg/robot.xml"));
   auto blind = sim::blind::draw_case(leg, sim::blind::Kind::null, 1);
-  for (auto& chain : blind.hidden_effects.chains) chain.dead_V = 0.4;
+  for (auto& channel : blind.hidden_effects.channels) channel.dead_V = 0.4;
   std::vector<std::string> withheld;  // to shorten the test
   for (const auto& effect : sim::effects::library())
     if (sim::effects::about(effect).stage != sim::effects::Stage::motor)
       withheld.emplace_back(sim::effects::about(effect).type);
   const Problem problem{leg, episodes(blind, 6, 3, leg), {.withhold = withheld}, {{0, 1}, {2}}};
   const Evaluator evaluator(leg, problem.episodes, problem.options.seed);
-  const auto stages =
-      localize(evaluator, evaluator.bare(), problem.sets.all(), problem.localization_options());
+  const auto stages = localize(evaluator, evaluator.nominal_evaluation(), problem.sets.all(),
+                               problem.localization_options());
   const Selection selection = select(problem, evaluator, stages);
   CHECK(selection.explained());
   CHECK(selection.answer.size() == leg.actuators.size());
@@ -149,18 +149,18 @@ TEST_CASE("a dead band on every muscle of a leg is identified on each") {
 }
 
 TEST_CASE(
-    "two effects on one stage: their gains sum to 1, and their overlap is a negative interaction") {
+    "the gains of two effects on one stage sum to 1, and their overlap is a negative interaction") {
   auto blind = nothing_hidden();
-  blind.hidden_effects.chains[1].dry_Nm = 0.06;
-  blind.hidden_effects.chains[1].viscous = 0.006;
+  blind.hidden_effects.channels[1].dry_Nm = 0.06;
+  blind.hidden_effects.channels[1].viscous = 0.006;
   const Diagnosis d = diagnose(hinge_rig(), episodes(blind));
   REQUIRE(d.answer.size() == 2);
   CHECK(d.answer[0].gain + d.answer[1].gain == Approx(1).margin(0.03));
   CHECK(d.interaction <
-        -0.1);  // both are friction: each alone removes part of the other's residual
+        -0.1);  // both are friction: each single one removes part of the other's residual
 }
 
-TEST_CASE("an infinite standard error: the interval equals the bounds") {
+TEST_CASE("the interval for an infinite standard error equals the bounds") {
   Ranked ranked{.fit = {{"flexor", *sim::effects::neutral("gearbox_viscous")}, 0, {}, {}}};
   ranked.fit.sigmas = {std::numeric_limits<double>::infinity()};
   const IdentifiedEffect n = identified(ranked, 0);
@@ -170,7 +170,7 @@ TEST_CASE("an infinite standard error: the interval equals the bounds") {
 
 TEST_CASE("a length offset and a shaft offset are reported as indistinguishable") {
   auto blind = nothing_hidden();
-  blind.hidden_effects.chains[0].length_offset_m = 4e-4;
+  blind.hidden_effects.channels[0].length_offset_m = 4e-4;
   const Diagnosis d = diagnose(hinge_rig(), episodes(blind));
   REQUIRE(d.answer.size() == 1);
   REQUIRE(d.answer[0].alternatives.size() == 1);
@@ -178,10 +178,10 @@ TEST_CASE("a length offset and a shaft offset are reported as indistinguishable"
   CHECK(d.answer[0].type == "tendon_length_offset");
 }
 
-TEST_CASE("two effects: an alternative of one is not listed for the other") {
+TEST_CASE("an alternative of one of two effects is not listed for the other") {
   auto blind = nothing_hidden();
-  blind.hidden_effects.chains[0].resistance = 0.3;
-  blind.hidden_effects.chains[1].length_offset_m = 4e-4;
+  blind.hidden_effects.channels[0].resistance = 0.3;
+  blind.hidden_effects.channels[1].length_offset_m = 4e-4;
   const Diagnosis d = diagnose(hinge_rig(), episodes(blind));
   REQUIRE(d.answer.size() == 2);
   const auto offset = std::ranges::find(d.answer, "tendon_length_offset", &IdentifiedEffect::type);
@@ -192,13 +192,13 @@ TEST_CASE("two effects: an alternative of one is not listed for the other") {
   CHECK(offset->alternatives[0].type == "sensor_shaft_offset");
   CHECK(resistance->alternatives.empty());
   REQUIRE(d.where.size() == 3);
-  double whole = 0;
+  double sum = 0;
   for (const Attribution& place : d.where) {
-    whole += place.share;
+    sum += place.share;
     CHECK(place.on == (place.stage == sim::effects::Stage::motor ? "flexor" : "extensor"));
     CHECK((place.stage == sim::effects::Stage::motor) == (place.interval.low > 0));
   }
-  CHECK(whole == Approx(1));
+  CHECK(sum == Approx(1));
 }
 
 TEST_CASE("delay, jitter and loss of commands are identified by the ages of commands") {
@@ -236,10 +236,10 @@ TEST_CASE("delay, jitter and loss of commands are identified by the ages of comm
   }
 }
 
-TEST_CASE("a gap in the training recordings alone: the verdict is not identifiable") {
+TEST_CASE("the verdict for a gap only in the training recordings is not identifiable") {
   auto blind = nothing_hidden();
   auto all = episodes(blind, 6, 2);
-  blind.hidden_effects.chains[1].viscous = 0.02;
+  blind.hidden_effects.channels[1].viscous = 0.02;
   all[0] = episodes(blind, 6, 1)[0];
   const Diagnosis d = diagnose(hinge_rig(), all, {.train = {0}, .held_out = {1}});
   CHECK(d.verdict == Verdict::not_identifiable);
@@ -247,7 +247,7 @@ TEST_CASE("a gap in the training recordings alone: the verdict is not identifiab
   REQUIRE_FALSE(d.warnings.empty());
 }
 
-TEST_CASE("recordings without current: a warning names the motors that are not evaluated") {
+TEST_CASE("for recordings without current a warning names the motors that are not evaluated") {
   auto all = episodes(nothing_hidden());
   for (Episode& e : all)
     for (ActuatorSignals& s : e.actuators) s.current_A.clear();
@@ -257,7 +257,7 @@ TEST_CASE("recordings without current: a warning names the motors that are not e
   CHECK_THAT(d.warnings[0], Catch::Contains("motor of flexor, motor of extensor"));
 }
 
-TEST_CASE("a recording of 0.1 s: the verdict is not identifiable, with a warning") {
+TEST_CASE("the verdict for a recording of 0.1 s is not identifiable, with a warning") {
   const Diagnosis d = diagnose(hinge_rig(), episodes(nothing_hidden(), 0.1, 1));
   CHECK(d.verdict == Verdict::not_identifiable);
   CHECK_THAT(d.warnings.back(), Catch::Contains("no stage could be evaluated"));

@@ -18,8 +18,9 @@ using namespace sim::residuals;
 
 namespace {
 
+/// Friction of a slide in N s/m and N.
 struct Friction {
-  double viscous, coulomb, more_forwards;
+  double viscous, coulomb, extra_forwards;
 };
 
 erp::Robot slide(erp::DriveControl control) {
@@ -32,32 +33,36 @@ erp::Robot slide(erp::DriveControl control) {
   return robot;
 }
 
-/// A mass with force gain · u, held for 1 ms, under a proportional controller that follows a sum of sines.
-/// Friction is a steep tanh; the integrator's step is a twentieth of the row period.
-recording::Table recorded(const Friction& f, double seconds, double pace) {
+/// Simulates a mass with the force gain · u, held for 1 ms. A proportional-derivative controller
+/// follows a sum of sines. Friction is a steep tanh. The integrator's step is a twentieth of the
+/// row period.
+recording::Table recorded(const Friction& f, double seconds, double angular_frequency) {
   constexpr double mass = 40, gain = 30, row_s = 1e-3;
   recording::Table table;
   for (const char* name : {"time_s", "z.control_V", "z.position_m"})
     table.columns.push_back({name, {}});
   double x = 0, v = 0;
   for (int k = 0; k < static_cast<int>(seconds / row_s); ++k) {
-    const double t = k * row_s,
-                 desired = 0.05 * std::sin(pace * t) + 0.02 * std::sin(2.7 * pace * t);
+    const double t = k * row_s, desired = 0.05 * std::sin(angular_frequency * t) +
+                                          0.02 * std::sin(2.7 * angular_frequency * t);
     const double reading = 1e-6 * std::round(x / 1e-6), u = 400 * (desired - reading) - 30 * v;
     table.columns[0].values.push_back(t), table.columns[1].values.push_back(u);
     table.columns[2].values.push_back(reading);
     for (int n = 0; n < 20; ++n) {
       const double friction =
-          f.viscous * v + (f.coulomb + (v > 0 ? f.more_forwards : 0)) * std::tanh(v / 1e-4);
+          f.viscous * v + (f.coulomb + (v > 0 ? f.extra_forwards : 0)) * std::tanh(v / 1e-4);
       v += (gain * u - friction) / mass * row_s / 20, x += v * row_s / 20;
     }
   }
   return table;
 }
 
-/// A current-controlled motor, a gearbox, a compliant shaft and a load; both ends are measured.
+/// Defects of a bench: a current-controlled motor, a gearbox, a compliant shaft and a load, with
+/// sensors at both ends.
 struct Bench {
-  double gear_dry_Nm = 0, load_dry_Nm = 0, softer = 0, play_rad = 0;
+  double gear_dry_Nm = 0, load_dry_Nm = 0;
+  double stiffness_loss = 0;  ///< relative
+  double play_rad = 0;
 };
 
 erp::Robot two_ends() {
@@ -77,7 +82,7 @@ erp::Robot two_ends() {
   return robot;
 }
 
-recording::Table recorded(const Bench& b, double seconds, double pace) {
+recording::Table recorded(const Bench& b, double seconds, double angular_frequency) {
   constexpr double n = 50, torque = 0.05, rotor = 4e-6 * n * n, inertia = 0.05, row_s = 1e-3;
   constexpr int steps = 50;
   std::mt19937_64 random(7);
@@ -86,19 +91,22 @@ recording::Table recorded(const Bench& b, double seconds, double pace) {
   for (const char* name :
        {"time_s", "arm.control_V", "arm.position_rad", "arm.load_rad", "arm.torque_Nm"})
     table.columns.push_back({name, {}});
-  double x = 0, v = 0, q = 0, w = 0, carried = 0;
+  double x = 0, v = 0, q = 0, w = 0, transmitted_Nm = 0;
   for (int k = 0; k < static_cast<int>(seconds / row_s); ++k) {
-    const double t = k * row_s, desired = std::sin(pace * t) + 0.4 * std::sin(2.7 * pace * t);
+    const double t = k * row_s, desired = std::sin(angular_frequency * t) +
+                                          0.4 * std::sin(2.7 * angular_frequency * t);
     const double u = 3 * (desired - x) - 0.3 * v;
     const double row[] = {t, u, x + 2e-5 * noise(random), q + 2e-5 * noise(random),
-                          carried + 0.01 * noise(random)};
+                          transmitted_Nm + 0.01 * noise(random)};
     for (std::size_t c = 0; c < 5; ++c) table.columns[c].values.push_back(row[c]);
     for (int s = 0; s < steps; ++s) {
-      const double twist = x - q, half = b.play_rad / 2, h = row_s / steps;
-      const double drawn = std::max(0.0, twist - half) + std::min(0.0, twist + half);
-      carried = drawn == 0 ? 0 : 60 * (1 - b.softer) * drawn + 0.1 * (v - w);
-      v += (n * torque * u - carried - b.gear_dry_Nm * std::tanh(v / 1e-3)) / rotor * h;
-      w += (carried - b.load_dry_Nm * std::tanh(w / 1e-3)) / inertia * h;
+      const double twist = x - q, half_play_rad = b.play_rad / 2, h = row_s / steps;
+      const double stretch_rad =
+          std::max(0.0, twist - half_play_rad) + std::min(0.0, twist + half_play_rad);
+      transmitted_Nm =
+          stretch_rad == 0 ? 0 : 60 * (1 - b.stiffness_loss) * stretch_rad + 0.1 * (v - w);
+      v += (n * torque * u - transmitted_Nm - b.gear_dry_Nm * std::tanh(v / 1e-3)) / rotor * h;
+      w += (transmitted_Nm - b.load_dry_Nm * std::tanh(w / 1e-3)) / inertia * h;
       x += v * h, q += w * h;
     }
   }
@@ -129,7 +137,8 @@ std::set<std::string> types_of(const Diagnosis& d) {
 }  // namespace
 
 TEST_CASE(
-    "a slide: no gap without friction; viscous and Coulomb friction are identified within 3 %") {
+    "a slide without friction has no gap, and viscous and Coulomb friction are identified within "
+    "3 %") {
   const auto runs = [](const Friction& f) {
     return std::vector{recorded(f, 8, 3), recorded(f, 8, 4), recorded(f, 8, 5)};
   };
@@ -155,7 +164,7 @@ TEST_CASE(
   for (const IdentifiedEffect& n : d.ranked) CHECK_FALSE(n.type.starts_with("sensor_current"));
 }
 
-TEST_CASE("current control sets the current of the chain, voltage control its voltage") {
+TEST_CASE("current control sets the current of the actuator chain, voltage control its voltage") {
   erp::Robot robot = slide(erp::DriveControl::current);
   erp::MotorType motor;
   motor.name = "m", motor.resistance_ohm = 1, motor.inductance_H = 1e-3;
@@ -178,27 +187,27 @@ TEST_CASE("current control sets the current of the chain, voltage control its vo
 }
 
 TEST_CASE(
-    "both ends measured: gearbox friction, load friction, stiffness and backlash are identified "
-    "within "
-    "5 %") {
+    "with sensors at both ends gearbox friction, load friction, stiffness and backlash are "
+    "identified "
+    "within 5 %") {
   const auto found = [](const Bench& bench) {
     return diagnosed(two_ends(),
                      {recorded(bench, 8, 3), recorded(bench, 8, 4), recorded(bench, 8, 5)});
   };
   CHECK(found({}).verdict == Verdict::no_gap);
-  const auto sole = [&](const Bench& bench, const std::string& type, double size) {
+  const auto check_single = [&](const Bench& bench, const std::string& type, double size) {
     const Diagnosis d = found(bench);
     INFO(type);
     CHECK(types_of(d) == std::set{type});
     if (!d.answer.empty()) CHECK(d.answer[0].values[0] == Approx(size).epsilon(0.05));
   };
-  sole({.gear_dry_Nm = 0.3}, "gearbox_coulomb", 0.3);
-  sole({.load_dry_Nm = 0.3}, "joint_coulomb", 0.3);
-  sole({.softer = 0.3}, "tendon_stiffness", -0.3);
-  sole({.play_rad = 0.02}, "gearbox_backlash", 0.02);
+  check_single({.gear_dry_Nm = 0.3}, "gearbox_coulomb", 0.3);
+  check_single({.load_dry_Nm = 0.3}, "joint_coulomb", 0.3);
+  check_single({.stiffness_loss = 0.3}, "tendon_stiffness", -0.3);
+  check_single({.play_rad = 0.02}, "gearbox_backlash", 0.02);
 }
 
-TEST_CASE("EMPS recordings: viscous, Coulomb and asymmetric friction are identified") {
+TEST_CASE("viscous, Coulomb and asymmetric friction are identified in the EMPS recordings") {
   const char* data = std::getenv("ERP_DATA_DIR");
   if (!data || !std::filesystem::exists(std::string(data) + "/emps")) {
     WARN("ERP_DATA_DIR/emps is missing: tests/README.md lists its source");
@@ -259,7 +268,8 @@ TEST_CASE("a random torque does not cause an error of the torque constant") {
 }
 
 TEST_CASE(
-    "rows of 20 ms: friction of a drive whose shaft reverses within few rows is not identifiable") {
+    "with rows of 20 ms the friction of a drive whose shaft reverses within few rows is not "
+    "identifiable") {
   const Diagnosis d =
       diagnosed(light_drive::description(), light_drive::of_sines({}, {.period_s = 0.02}));
   CHECK(d.verdict == Verdict::not_identifiable);

@@ -31,7 +31,7 @@ std::vector<Episode> recordings(bool with_angle) {
   return all;
 }
 
-/// Changes the second of two effects: incremental and full evaluation must agree.
+/// Checks that incremental and full evaluation agree after a change of the second of two effects.
 void check_incremental(const Evaluator& evaluator, const std::string& first,
                        const std::string& second) {
   INFO(second << " beside " << first);
@@ -40,14 +40,14 @@ void check_incremental(const Evaluator& evaluator, const std::string& first,
   const std::vector<effects::Placed> after{before[0], larger(before[1])};
   const auto incremental =
       evaluator.whitened(evaluator.changed(evaluator.with(before, all), 1, after[1], all), 0);
-  const auto whole = evaluator.whitened(evaluator.with(after, all), 0);
-  REQUIRE(incremental.size() == whole.size());
-  double most = 0;
-  for (std::size_t k = 0; k < whole.size(); ++k) {
-    REQUIRE(std::isnan(incremental[k]) == std::isnan(whole[k]));
-    if (!std::isnan(whole[k])) most = std::max(most, std::abs(incremental[k] - whole[k]));
+  const auto full = evaluator.whitened(evaluator.with(after, all), 0);
+  REQUIRE(incremental.size() == full.size());
+  double largest = 0;
+  for (std::size_t k = 0; k < full.size(); ++k) {
+    REQUIRE(std::isnan(incremental[k]) == std::isnan(full[k]));
+    if (!std::isnan(full[k])) largest = std::max(largest, std::abs(incremental[k] - full[k]));
   }
-  CHECK(most < 1e-9);
+  CHECK(largest < 1e-9);
 }
 
 }  // namespace
@@ -63,7 +63,8 @@ TEST_CASE("a change of one of two effects recomputes every residual that depends
 }
 
 TEST_CASE(
-    "with play in a joint sensor, residuals change with the effects that determine its angle") {
+    "with play in a joint sensor, a change of an effect that determines the angle recomputes all "
+    "residuals") {
   const Evaluator evaluator(hinge_rig(), recordings(true));
   for (const char* second : {"tendon_stiffness", "sensor_shaft_offset", "skeleton_mass"})
     check_incremental(evaluator, "joint_play", second);

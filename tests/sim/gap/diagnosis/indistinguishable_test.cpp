@@ -22,7 +22,7 @@ bool has(const std::vector<Indistinguishable>& all, const std::string& hidden,
 
 }  // namespace
 
-TEST_CASE("springs in series are indistinguishable; friction is distinguishable from springs") {
+TEST_CASE("springs in series are indistinguishable, and friction is distinguishable from springs") {
   const erp::Robot rig = erp::read_robot(rigs::config("hinge_rig/robot.xml"));
   const Evaluator evaluator(rig, {rig_recording::record(rig, rig, {.seconds = 6})});
   const auto all = indistinguishable_effects(evaluator, 0.1);

@@ -6,10 +6,11 @@
 #include "interfaces/recording/table.hpp"
 #include "interfaces/robot/robot.hpp"
 
-/// A light current-controlled motor with stiction, and recordings simulated without code of the product.
+/// A light current-controlled motor with stiction. Its recordings are simulated without code of the
+/// product.
 namespace light_drive {
 
-struct Light {
+struct Light {  // a light drive
   double coulomb_Nm = 3e-3, viscous_Nm_s = 3e-5;
   double load_Nm = 0;         ///< constant torque
   double disturbance_Nm = 0;  ///< standard deviation of a random torque
@@ -43,7 +44,7 @@ inline erp::Robot description() {
 
 /// Simulates the drive with `current(t, ω)` in A, held between rows.
 recording::Table simulated(const Light& light, const Rows& rows, auto current) {
-  constexpr double step_s = 2e-5, correlated_s = 0.05;
+  constexpr double step_s = 2e-5, correlation_s = 0.05;
   const int steps = int(std::lround(rows.period_s / step_s));
   std::mt19937_64 random(rows.seed);
   std::normal_distribution<double> noise;
@@ -57,13 +58,13 @@ recording::Table simulated(const Light& light, const Rows& rows, auto current) {
     for (std::size_t c = 0; c < 3; ++c) table.columns[c].values.push_back(row[c]);
     for (int s = 0; s < steps; ++s) {
       if (light.disturbance_Nm > 0)
-        disturbance += -disturbance * step_s / correlated_s +
-                       std::sqrt(2 * step_s / correlated_s) * noise(random);
-      const double pushed = torque_Nm_per_A * amperes - light.load_Nm -
-                            light.disturbance_Nm * disturbance - light.viscous_Nm_s * speed;
-      if (speed == 0 && std::abs(pushed) <= light.coulomb_Nm) continue;
-      const int sign = speed > 0 || (speed == 0 && pushed > 0) ? 1 : -1;
-      double next = speed + (pushed - sign * light.coulomb_Nm) / inertia_kg_m2 * step_s;
+        disturbance += -disturbance * step_s / correlation_s +
+                       std::sqrt(2 * step_s / correlation_s) * noise(random);
+      const double driving_Nm = torque_Nm_per_A * amperes - light.load_Nm -
+                                light.disturbance_Nm * disturbance - light.viscous_Nm_s * speed;
+      if (speed == 0 && std::abs(driving_Nm) <= light.coulomb_Nm) continue;
+      const int sign = speed > 0 || (speed == 0 && driving_Nm > 0) ? 1 : -1;
+      double next = speed + (driving_Nm - sign * light.coulomb_Nm) / inertia_kg_m2 * step_s;
       if (speed * next < 0) next = 0;
       angle += (speed + next) / 2 * step_s, speed = next;
     }
@@ -83,7 +84,7 @@ inline std::vector<recording::Table> of_sines(const Light& light, Rows rows = {}
   return tables;
 }
 
-/// Six recordings of one steady speed each, under a speed controller.
+/// Six recordings with one steady speed each, with a speed controller.
 inline std::vector<recording::Table> at_steady_speeds(const Light& light, Rows rows = {}) {
   std::vector<recording::Table> tables;
   for (const double desired : {5.0, -10.0, 20.0, -40.0, 80.0, -160.0}) {

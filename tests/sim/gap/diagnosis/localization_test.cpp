@@ -15,7 +15,7 @@ namespace {
 
 erp::Robot hinge_rig() { return erp::read_robot(rigs::config("hinge_rig/robot.xml")); }
 
-/// Two recordings of a rig with these effects on.
+/// Two recordings of a rig with these effects.
 std::vector<Episode> recordings(const std::vector<effects::Placed>& placed) {
   erp::Robot real = hinge_rig();
   for (const auto& p : placed) real.effects.push_back(effects::written(p));
@@ -32,13 +32,14 @@ TEST_CASE(
     INFO(effects::word(gap.stage) << " " << gap.on << ": rms " << gap.rms << " " << gap.unit
                                   << ", floor " << gap.floor);
     CHECK(gap.rms < 1.35 * gap.floor);
-    // the floor of a tendon assumes a tension half a period late; here it is not late
+    // The noise floor of a tendon includes a delay of the tension by half a period; here there is
+    // no delay.
     CHECK(gap.rms > (gap.stage == effects::Stage::tendon ? 0.4 : 0.7) * gap.floor);
     CHECK_FALSE(gap.open);
   }
 }
 
-TEST_CASE("a small effect opens only its own stage, with an interval above the noise") {
+TEST_CASE("a small effect opens only its stage, with an interval above the noise") {
   const std::vector<std::pair<effects::Placed, std::string>> cases{
       {{"extensor", effects::MotorDeadBand{0.05}}, "motor extensor"},
       {{"flexor", effects::GearboxCoulomb{0.02}}, "gearbox flexor"},
@@ -57,7 +58,7 @@ TEST_CASE("a small effect opens only its own stage, with an interval above the n
   }
 }
 
-TEST_CASE("without the columns of any stage the error names the missing columns") {
+TEST_CASE("if the columns of every stage are missing, the error names the missing columns") {
   auto episodes = recordings({});
   for (Episode& e : episodes)
     for (auto& a : e.actuators) a.shaft_rad.clear(), a.tension_N.clear();

@@ -19,7 +19,7 @@ Episode recorded(const std::vector<effects::Placed>& placed, std::uint64_t seed 
   return rig_recording::record(hinge_rig(), real, {.seconds = 12, .seed = seed});
 }
 
-void check_closed(const std::vector<Episode>& episodes) {
+void check_no_gap(const std::vector<Episode>& episodes) {
   for (const StageGap& gap : localize(hinge_rig(), episodes)) {
     INFO(effects::word(gap.stage) << " " << gap.on << ": excess " << gap.excess);
     CHECK_FALSE(gap.open);
@@ -39,7 +39,7 @@ std::vector<std::string> isolated(const std::vector<effects::Placed>& hidden,
 
 }  // namespace
 
-TEST_CASE("signals that one recording lacks are left out of all, with a remark") {
+TEST_CASE("signals that one recording lacks are removed from all recordings with a remark") {
   std::vector<Episode> episodes{recorded({}), recorded({}, 8)};
   episodes[0].name = "monday.csv", episodes[1].name = "tuesday.csv";
   episodes[1].actuators[0].tension_N.clear();
@@ -51,7 +51,7 @@ TEST_CASE("signals that one recording lacks are left out of all, with a remark")
   CHECK_THAT(remarks[1], Catch::StartsWith("monday.csv: lacks extensor.current_A"));
   CHECK(episodes[0].actuators[0].tension_N.empty());
   CHECK(episodes[1].actuators[1].current_A.empty());
-  check_closed(episodes);
+  check_no_gap(episodes);
 }
 
 TEST_CASE("an unmeasured joint angle is estimated from tendons within 0.003 rad") {
@@ -60,14 +60,14 @@ TEST_CASE("an unmeasured joint angle is estimated from tendons within 0.003 rad"
   episode.joints[0].angle_rad.clear();
   const auto joints = Stages(hinge_rig()).explain(episode).joints;
   REQUIRE(joints->estimated);
-  const Signal& found = joints->signals[0].angle_rad;
+  const Signal& estimated = joints->signals[0].angle_rad;
   for (std::size_t k = 100; k + 100 < truth.size(); k += 50)
-    CHECK(found[k] == Approx(truth[k]).margin(0.003));
-  check_closed({episode});
+    CHECK(estimated[k] == Approx(truth[k]).margin(0.003));
+  check_no_gap({episode});
 }
 
 TEST_CASE(
-    "without joint angles a wrong spindle radius opens the tendon stage; slack tendons give no "
+    "without joint angles a wrong spindle radius opens the tendon stage, and slack tendons give no "
     "angle") {
   Episode episode = recorded({{"extensor", effects::SpindleRadius{0.1}}});
   episode.joints[0].angle_rad.clear();
@@ -82,29 +82,29 @@ TEST_CASE(
 TEST_CASE("an unmeasured current is computed from the motor's law and causes no gap") {
   Episode episode = recorded({});
   for (auto& a : episode.actuators) a.current_A.clear();
-  check_closed({episode});
+  check_no_gap({episode});
 }
 
-TEST_CASE("isolation lists the part with the effect, and no part that would open other stages") {
+TEST_CASE("isolation lists the part with the effect, but no part whose effects open other stages") {
   using Names = std::vector<std::string>;
-  const Names rough = isolated({{"flexor", effects::GearboxCoulomb{0.1}}});
-  CHECK(std::ranges::count(rough, "gearbox flexor") == 1);
+  const Names friction_parts = isolated({{"flexor", effects::GearboxCoulomb{0.1}}});
+  CHECK(std::ranges::count(friction_parts, "gearbox flexor") == 1);
   for (const char* other : {"gearbox extensor", "tendon flexor", "spindle flexor", "joint elbow"})
-    CHECK(std::ranges::count(rough, other) == 0);
-  const Names stiff = isolated({{"elbow", effects::JointViscous{0.2}}});
-  CHECK(std::ranges::count(stiff, "joint elbow") == 1);
-  for (const std::string& name : stiff) {
+    CHECK(std::ranges::count(friction_parts, other) == 0);
+  const Names damping_parts = isolated({{"elbow", effects::JointViscous{0.2}}});
+  CHECK(std::ranges::count(damping_parts, "joint elbow") == 1);
+  for (const std::string& name : damping_parts) {
     INFO(name);
     CHECK((name.starts_with("joint") || name.starts_with("skeleton")));
   }
 }
 
 TEST_CASE("isolation ignores withheld effects") {
-  std::vector<std::string> of_joints;
+  std::vector<std::string> joint_types;
   for (const auto& effect : effects::library())
     if (effects::about(effect).stage == effects::Stage::joint)
-      of_joints.emplace_back(effects::about(effect).type);
-  for (const std::string& name : isolated({{"elbow", effects::JointViscous{0.2}}}, of_joints)) {
+      joint_types.emplace_back(effects::about(effect).type);
+  for (const std::string& name : isolated({{"elbow", effects::JointViscous{0.2}}}, joint_types)) {
     INFO(name);
     CHECK_FALSE(name.starts_with("joint"));
   }

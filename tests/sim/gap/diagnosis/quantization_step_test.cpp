@@ -17,7 +17,7 @@ using sim::residuals::Signal;
 TEST_CASE("a quantization step of 0.2 A is detected in the readings and explains the gap") {
   auto blind = nothing_hidden();
   CHECK(coarse_sensors(episodes(blind, 3, 1), hinge_rig()).empty());
-  blind.hidden_effects.chains[1].current.step = 0.2;
+  blind.hidden_effects.channels[1].current.step = 0.2;
   const auto coarse = coarse_sensors(episodes(blind, 3, 1), hinge_rig());
   REQUIRE(coarse.size() == 1);
   CHECK(sim::effects::about(coarse[0].effect).type == "sensor_current_quantisation");
@@ -28,9 +28,9 @@ TEST_CASE("a quantization step of 0.2 A is detected in the readings and explains
   CHECK(d.answer.size() == 1);
 }
 
-TEST_CASE("a quantization step is identified although all constants deviate by 2 %") {
+TEST_CASE("a quantization step of 0.83 N is identified although all constants deviate by 2 %") {
   auto blind = nothing_hidden();
-  blind.hidden_effects.chains[1].tension.step = 0.83;
+  blind.hidden_effects.channels[1].tension.step = 0.83;
   blind.built = sim::blind::as_built(hinge_rig(), 0.02, 43, blind.hidden_effects);
   const Diagnosis d = diagnose(hinge_rig(), episodes(blind, 10));
   CHECK(d.verdict == Verdict::supported);
@@ -39,7 +39,7 @@ TEST_CASE("a quantization step is identified although all constants deviate by 2
   CHECK_FALSE(d.constants.empty());
 }
 
-TEST_CASE("random readings have no step; multiples of 7 have a step of 7") {
+TEST_CASE("random readings have no quantization step, and multiples of 7 have a step of 7") {
   std::mt19937_64 random(1);
   for (const unsigned count : {14, 20, 40, 200})
     for (int k = 0; k < 50; ++k) {
@@ -53,21 +53,21 @@ TEST_CASE("random readings have no step; multiples of 7 have a step of 7") {
     }
 }
 
-TEST_CASE("readings at several steady speeds have no step") {
+TEST_CASE("readings at several steady speeds have no quantization step") {
   Signal readings_of_shaft;
-  double at = 0, counts_per_row = 0;
+  double position = 0, counts_per_row = 0;
   for (int k = 0; k < 1800; ++k) {
-    const double steady = k < 1000 ? 108.1 : k < 1400 ? 131.7 : 75.3;
-    counts_per_row += std::clamp(steady - counts_per_row, -0.6, 0.6);
-    readings_of_shaft.push_back(std::round(at += counts_per_row));
+    const double steady_counts_per_row = k < 1000 ? 108.1 : k < 1400 ? 131.7 : 75.3;
+    counts_per_row += std::clamp(steady_counts_per_row - counts_per_row, -0.6, 0.6);
+    readings_of_shaft.push_back(std::round(position += counts_per_row));
   }
   const Signal* readings[] = {&readings_of_shaft};
   CHECK(quantization_step(readings, 1) < 1.8);
 }
 
-TEST_CASE("a recording too short to evaluate: coarse readings do not make the verdict supported") {
+TEST_CASE("the verdict for a recording of 0.3 s with coarse readings is not identifiable") {
   auto blind = nothing_hidden();
-  blind.hidden_effects.chains[1].current.step = 0.03;
+  blind.hidden_effects.channels[1].current.step = 0.03;
   const auto short_recordings = episodes(blind, 0.3, 1);
   REQUIRE_FALSE(coarse_sensors(short_recordings, hinge_rig()).empty());
   CHECK(diagnose(hinge_rig(), short_recordings).verdict == Verdict::not_identifiable);

@@ -27,7 +27,8 @@ std::vector<Placed> seven() {
 
 }  // namespace
 
-TEST_CASE("Shapley values of seven effects sum to 1; those of six agree with the exact formula") {
+TEST_CASE(
+    "Shapley values of seven effects sum to 1 and agree with the exact values of six of them") {
   const erp::Robot nominal = erp::read_robot(rigs::config("hinge_rig/robot.xml"));
   erp::Robot real = nominal;
   for (const Placed& p : seven()) real.effects.push_back(sim::effects::written(p));

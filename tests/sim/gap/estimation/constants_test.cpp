@@ -15,19 +15,19 @@ using blind_recording::hinge_rig;
 
 namespace {
 
-erp::Tolerance relative(const char* of, const char* on, double share) {
+erp::Tolerance relative(const char* of, const char* on, double relative_tolerance) {
   erp::Tolerance given;
-  given.of = of, given.on = on, given.relative = share;
+  given.of = of, given.on = on, given.relative = relative_tolerance;
   return given;
 }
 
-erp::Tolerance absolute(const char* of, double by) {
+erp::Tolerance absolute(const char* of, double tolerance) {
   erp::Tolerance given;
-  given.of = of, given.absolute = by;
+  given.of = of, given.absolute = tolerance;
   return given;
 }
 
-/// The tolerance in the number's unit; empty if it is no constant.
+/// The tolerance in the number's unit; empty if the number is not estimated.
 std::optional<double> tolerance_of(const erp::Robot& robot, const char* on, const char* name) {
   for (const Constant& c : constants_of(robot))
     if (c.on == on && c.name == name) return c.tolerance;
@@ -51,9 +51,9 @@ double difference(const sim::residuals::Explanation& a, const sim::residuals::Ex
   for (std::size_t s = 0; s < a.residuals.size(); ++s) {
     double square = 0, change = 0;
     for (std::size_t k = 0; k < a.residuals[s].value.size(); ++k) {
-      const double was = a.residuals[s].value[k], is = b.residuals[s].value[k];
-      if (std::isnan(was) || std::isnan(is)) continue;
-      square += was * was, change += (is - was) * (is - was);
+      const double before = a.residuals[s].value[k], after = b.residuals[s].value[k];
+      if (std::isnan(before) || std::isnan(after)) continue;
+      square += before * before, change += (after - before) * (after - before);
     }
     if (square > 0) sum += change / square;
   }
@@ -79,7 +79,8 @@ TEST_CASE("a change of a constant gives the residuals of the effect that represe
     with_effect.effects.push_back(sim::effects::written(as_effect(c, {k, x[k], 0}).effect));
     const auto by_constant = explain(with_constants(robot, constants, x));
     const double change = difference(nominal, by_constant);
-    // The efficiency of the gearbox acts on a rotor's friction, but not on that of the effect.
+    // The efficiency of the gearbox acts on the rotor's friction, but not on the friction of the
+    // effect.
     const bool before_gearbox =
         c.name == "rotor_coulomb_Nm" || c.name == "rotor_viscous_Nm_s_per_rad";
     CHECK(difference(by_constant, explain(with_effect)) < (before_gearbox ? 0.15 : 1e-6) * change);
@@ -112,22 +113,22 @@ TEST_CASE("a tolerance of an unknown number is rejected with the nearest name") 
         std::string::npos);
 }
 
-TEST_CASE("a torque constant 4 % larger sets a back-EMF constant 4 % larger") {
+TEST_CASE("an increase of the torque constant by 4 % increases the back-EMF constant by 4 %") {
   const erp::Robot robot = hinge_rig();
   const auto all = constants_of(robot);
   std::vector<double> x(all.size());
   for (std::size_t k = 0; k < all.size(); ++k)
     if (all[k].name == "torque_Nm_per_A" && all[k].on == "flexor") x[k] = 1;
   const erp::Robot built = with_constants(robot, all, x);
-  const erp::MotorType &was = robot.motor_of(robot.actuators[0]),
-                       &is = built.motor_of(built.actuators[0]);
-  CHECK(is.torque_Nm_per_A == Approx(1.04 * was.torque_Nm_per_A));
-  CHECK(is.back_emf_V_s_per_rad == Approx(1.04 * was.back_emf_V_s_per_rad));
+  const erp::MotorType &before = robot.motor_of(robot.actuators[0]),
+                       &after = built.motor_of(built.actuators[0]);
+  CHECK(after.torque_Nm_per_A == Approx(1.04 * before.torque_Nm_per_A));
+  CHECK(after.back_emf_V_s_per_rad == Approx(1.04 * before.back_emf_V_s_per_rad));
   CHECK(std::ranges::none_of(all,
                              [](const Constant& c) { return c.name == "back_emf_V_s_per_rad"; }));
 }
 
-TEST_CASE("the value of a constant stays within the bounds of its effect") {
+TEST_CASE("the value of a constant is limited to the bounds of its effect") {
   const erp::Robot robot = hinge_rig();
   const auto all = constants_of(robot);
   for (const double x : {-1e4, 1e4})
@@ -140,10 +141,13 @@ TEST_CASE(
   for (const Constant& c : constants_of(hinge_rig())) {
     if (c.on != "flexor") continue;
     if (c.name == "stiffness_N_per_m") {
-      const double from = c.value(2), by = 0.1 * from;  // in N/m
-      CHECK(1 / c.value(c.moved(2, by / c.tolerance)) == Approx(1 / from - by / (from * from)));
-      CHECK(c.value(c.moved(2, -10 * from / c.tolerance)) == Approx(from / 11));
-      CHECK(c.value(c.moved(2, 2 * from / c.tolerance)) == Approx(8 * from));
+      const double stiffness_N_per_m = c.value(2), step_N_per_m = 0.1 * stiffness_N_per_m;
+      CHECK(1 / c.value(c.moved(2, step_N_per_m / c.tolerance)) ==
+            Approx(1 / stiffness_N_per_m - step_N_per_m / (stiffness_N_per_m * stiffness_N_per_m)));
+      CHECK(c.value(c.moved(2, -10 * stiffness_N_per_m / c.tolerance)) ==
+            Approx(stiffness_N_per_m / 11));
+      CHECK(c.value(c.moved(2, 2 * stiffness_N_per_m / c.tolerance)) ==
+            Approx(8 * stiffness_N_per_m));
     } else {
       CHECK(c.moved(2, 0.5) == 2.5);
     }

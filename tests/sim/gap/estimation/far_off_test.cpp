@@ -19,7 +19,7 @@ Uncertain two_factors() {
   return u;
 }
 
-/// Four such constants.
+/// Each of these constants twice.
 Uncertain four_factors() {
   Uncertain u = two_factors();
   u.constants.insert(u.constants.end(), u.constants.begin(), u.constants.begin() + 2);
@@ -28,7 +28,7 @@ Uncertain four_factors() {
 
 /// A measurement of x with standard deviation 1.
 struct Row {
-  double of_first, of_second, measured;
+  double first_sensitivity, second_sensitivity, measured;
 };
 
 Estimate at_nominal(const std::vector<Row>& rows) {
@@ -38,8 +38,8 @@ Estimate at_nominal(const std::vector<Row>& rows) {
   e.jacobian.resize(e.z.size(), 2);
   for (std::size_t n = 0; n < rows.size(); ++n) {
     e.z[Eigen::Index(n)] = -rows[n].measured;
-    e.jacobian.insert(Eigen::Index(n), 0) = rows[n].of_first;
-    e.jacobian.insert(Eigen::Index(n), 1) = rows[n].of_second;
+    e.jacobian.insert(Eigen::Index(n), 0) = rows[n].first_sensitivity;
+    e.jacobian.insert(Eigen::Index(n), 1) = rows[n].second_sensitivity;
   }
   return e;
 }
@@ -47,32 +47,33 @@ Estimate at_nominal(const std::vector<Row>& rows) {
 }  // namespace
 
 TEST_CASE(
-    "a ratio of two constants 6 tolerances off is reported as one of them, the other as "
+    "if a ratio of two constants is 6 tolerances off, one is reported and the other one is its "
     "alternative") {
   const FarOff found = far_off(two_factors(), at_nominal({{20, -20, 20 * 6}}));
-  REQUIRE(found.all.size() == 1);  // not both by three tolerances
+  REQUIRE(found.all.size() == 1);  // not both, with three tolerances each
   CHECK(std::abs(found.all[0].x) == Approx(6).epsilon(0.1));
-  REQUIRE(found.instead[0].size() == 1);
-  CHECK(found.instead[0][0].constant == 1 - found.all[0].constant);
-  CHECK(found.instead[0][0].x == Approx(-found.all[0].x));
+  REQUIRE(found.alternatives[0].size() == 1);
+  CHECK(found.alternatives[0][0].constant == 1 - found.all[0].constant);
+  CHECK(found.alternatives[0][0].x == Approx(-found.all[0].x));
 }
 
 TEST_CASE("a separate measurement of one of two constants leaves no alternative") {
   const FarOff found = far_off(two_factors(), at_nominal({{20, -20, 20 * 6}, {2, 0, 2 * 6}}));
   REQUIRE(found.all.size() == 1);
   CHECK(found.all[0].constant == 0);
-  CHECK(found.instead[0].empty());
+  CHECK(found.alternatives[0].empty());
 }
 
 TEST_CASE(
-    "a constant 2 tolerances off, hardly determined or below its lowest value is not far off") {
+    "a constant that deviates by 2 tolerances, is hardly determined or is below its lower bound is "
+    "not far off") {
   CHECK(far_off(two_factors(), at_nominal({{20, 0, 20 * 2}})).all.empty());
   CHECK(far_off(two_factors(), at_nominal({{0.3, 0, 0.3 * 6}})).all.empty());
   CHECK(far_off(two_factors(), at_nominal({{20, 0, 20 * -60}})).all.empty());
   CHECK(far_off(two_factors(), at_nominal({{20, 0, 20 * -40}})).all.size() == 1);
 }
 
-TEST_CASE("a constant is removed if those added after it explain the same") {
+TEST_CASE("a constant is removed if constants that were added after it explain the same") {
   Eigen::Matrix4d rows;
   rows << -2, 1, 1, 2, -2, 2, 2, 0, 1, 0, 2, 1, 0, -1, -1, 2;
   rows *= 20;
@@ -85,7 +86,7 @@ TEST_CASE("a constant is removed if those added after it explain the same") {
   for (const Deviation& d : found.all) CHECK(d.constant < 2);
 }
 
-TEST_CASE("a constant may be far off from 1.9 tolerances on, a zero from 4.4") {
+TEST_CASE("a constant may be far off above 1.9 tolerances, a zero above 4.4 tolerances") {
   Constant c{};
   CHECK_FALSE(is_worth_far(c, -1.8));
   CHECK(is_worth_far(c, -1.95));

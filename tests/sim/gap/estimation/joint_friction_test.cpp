@@ -6,8 +6,7 @@
 
 using namespace sim::estimation;
 
-TEST_CASE(
-    "the Coulomb friction of a leg's joints is estimated within 2.5 standard errors") {
+TEST_CASE("the Coulomb friction of a leg's joints is estimated within 2.5 standard errors") {
   const erp::Robot leg = erp::read_robot(rigs::config("leg/robot.xml"));
   const auto nothing_hidden = sim::blind::draw_case(leg, sim::blind::Kind::null, 1);
   const AsBuilt built = calibrated(leg, blind_recording::episodes(nothing_hidden, 20, 4, leg));

@@ -16,7 +16,8 @@ std::vector<Episode> recordings() {
   return blind_recording::episodes(blind_recording::nothing_hidden(), 5, 2);
 }
 
-void make_early(Signal& signal, std::size_t rows) {
+/// Moves the samples to earlier rows.
+void shift_earlier(Signal& signal, std::size_t rows) {
   for (std::size_t k = 0; k + rows < signal.size(); ++k) signal[k] = signal[k + rows];
 }
 
@@ -26,46 +27,46 @@ std::size_t missing(const Signal& signal) {
 
 }  // namespace
 
-TEST_CASE("a recording whose voltage holds until its row has no lag") {
+TEST_CASE("a recording whose voltage is held until its row has no lag") {
   CHECK(row_timing(recordings()).rows == 0);
 }
 
-TEST_CASE("a voltage that holds from its row is detected, and shifted with mode and reference") {
+TEST_CASE("a voltage that is held from its row is detected and shifted with mode and reference") {
   auto all = recordings();
   const auto original = all;
   for (Episode& e : all)
     for (auto& s : e.actuators)
-      make_early(s.voltage_V, 1), make_early(s.reference, 1), make_early(s.mode, 1);
+      shift_earlier(s.voltage_V, 1), shift_earlier(s.reference, 1), shift_earlier(s.mode, 1);
   const RowTiming timing = row_timing(all);
   CHECK(timing.from_row());
   std::vector<std::string> remarks;
-  undo(timing, all, remarks);
+  compensate(timing, all, remarks);
   CHECK(remarks.size() == 1);
   CHECK(all[0].actuators[0].voltage_V[100] == original[0].actuators[0].voltage_V[100]);
   CHECK(all[0].actuators[0].reference[100] == original[0].actuators[0].reference[100]);
-  CHECK(all[0].voltage_late_s == 0);
+  CHECK(all[0].voltage_delay_s == 0);
 }
 
 TEST_CASE("a voltage shifted by four rows is detected as a delay of 8 ms") {
   auto all = recordings();
   for (Episode& e : all)
-    for (auto& s : e.actuators) make_early(s.voltage_V, 4);
+    for (auto& s : e.actuators) shift_earlier(s.voltage_V, 4);
   const RowTiming timing = row_timing(all);
   CHECK(timing.delay_s() == Approx(0.008));
   std::vector<std::string> remarks;
-  undo(timing, all, remarks);
-  CHECK(all[0].voltage_late_s == Approx(0.008));
+  compensate(timing, all, remarks);
+  CHECK(all[0].voltage_delay_s == Approx(0.008));
 }
 
-TEST_CASE("a driver delay of 1.3 ms at one motor is no lag of rows") {
-  sim::blind::Case late = blind_recording::nothing_hidden();
-  late.hidden_effects.chains[0].driver_late_s = 0.0013;
-  CHECK(row_timing(blind_recording::episodes(late, 5, 2)).rows == 0);
+TEST_CASE("a driver delay of 1.3 ms at one motor is not reported as a lag of rows") {
+  sim::blind::Case delayed = blind_recording::nothing_hidden();
+  delayed.hidden_effects.channels[0].driver_delay_s = 0.0013;
+  CHECK(row_timing(blind_recording::episodes(delayed, 5, 2)).rows == 0);
 }
 
-TEST_CASE("a lag of three rows at one actuator is no lag of rows") {
+TEST_CASE("a lag of three rows at one actuator is not reported as a lag of rows") {
   auto all = recordings();
-  for (Episode& e : all) make_early(e.actuators[0].voltage_V, 3);
+  for (Episode& e : all) shift_earlier(e.actuators[0].voltage_V, 3);
   CHECK(row_timing(all).rows == 0);
 }
 
@@ -96,8 +97,8 @@ TEST_CASE("a voltage above the supply is clipped, a tension at the end of its ra
 
 namespace {
 
-/// Repeats the previous row in `burst` rows from every `each`-th row on.
-void lose_reports(Episode& e, std::size_t each, std::size_t burst) {
+/// Repeats the previous row in `burst` successive rows after every `each` rows.
+void repeat_rows(Episode& e, std::size_t each, std::size_t burst) {
   const auto repeat = [&](Signal& signal) {
     for (std::size_t k = each; k < signal.size(); ++k)
       if (k % each < burst) signal[k] = signal[k - 1];
@@ -107,18 +108,18 @@ void lose_reports(Episode& e, std::size_t each, std::size_t burst) {
   for (auto& j : e.joints) repeat(j.angle_rad);
 }
 
-/// Samples every row up to `most_s` after its time stamp.
-void sample_late(Episode& e, double most_s) {
-  std::vector<double> late_s(e.rows);
+/// Samples every row at a random time up to `max_delay_s` after its time stamp.
+void delay_rows(Episode& e, double max_delay_s) {
+  std::vector<double> delay_s(e.rows);
   std::uint32_t state = 1;
-  for (double& t : late_s) {
+  for (double& t : delay_s) {
     state = state * 1664525u + 1013904223u;
-    t = most_s * double(state >> 8) / double(1 << 24);
+    t = max_delay_s * double(state >> 8) / double(1 << 24);
   }
   const auto sample = [&](Signal& signal) {
     const Signal exact = signal;
     for (std::size_t k = 0; k + 1 < exact.size(); ++k)
-      signal[k] += (exact[k + 1] - exact[k]) * late_s[k] / e.period_s;
+      signal[k] += (exact[k + 1] - exact[k]) * delay_s[k] / e.period_s;
   };
   for (auto& s : e.actuators) sample(s.current_A), sample(s.shaft_rad), sample(s.tension_N);
   for (auto& j : e.joints) sample(j.angle_rad);
@@ -127,39 +128,41 @@ void sample_late(Episode& e, double most_s) {
 }  // namespace
 
 TEST_CASE(
-    "an intact recording has no repeated rows and no jitter, a robot at rest no repeated rows") {
+    "an intact recording has no repeated rows and no jitter, and constant rows are not lost") {
   auto all = recordings();
-  CHECK(repeated_rows(all).share == 0);
+  CHECK(repeated_rows(all).fraction == 0);
   CHECK(row_jitter_s(all) == 0);
-  Episode still = all[0];
-  lose_reports(still, 1, 1);  // every row equals the first
-  CHECK(repeated_rows(std::span(&still, 1)).share == 0);
+  Episode at_rest = all[0];
+  repeat_rows(at_rest, 1, 1);  // every row equals the first
+  CHECK(repeated_rows(std::span(&at_rest, 1)).fraction == 0);
 }
 
 TEST_CASE("four lost reports of forty are reported; angles are interpolated, voltages become NaN") {
   auto all = recordings();
   const auto truth = all;
-  for (Episode& e : all) lose_reports(e, 40, 4);
-  CHECK(repeated_rows(all).share == Approx(0.1).epsilon(0.1));
+  for (Episode& e : all) repeat_rows(e, 40, 4);
+  CHECK(repeated_rows(all).fraction == Approx(0.1).epsilon(0.1));
   std::vector<std::string> remarks;
   repair_defective_rows(all, remarks);
   REQUIRE(remarks.size() == 1);
   CHECK(remarks[0].find("reports were lost") != std::string::npos);
-  CHECK(all[0].repeated_share == Approx(0.1).epsilon(0.1));
-  const std::size_t lost = 1001;  // 1000 … 1003
+  CHECK(all[0].repeated_fraction == Approx(0.1).epsilon(0.1));
+  const std::size_t repeated_row = 1001;  // 1000 … 1003
   const auto &repaired = all[0].actuators[0], &exact = truth[0].actuators[0];
-  CHECK(std::isnan(repaired.voltage_V[lost]));
-  CHECK(std::isnan(repaired.current_A[lost]));
-  CHECK(repaired.shaft_rad[lost] == Approx(exact.shaft_rad[lost]).margin(0.02));
-  CHECK(repaired.shaft_rad[lost] != repaired.shaft_rad[lost - 1]);
+  CHECK(std::isnan(repaired.voltage_V[repeated_row]));
+  CHECK(std::isnan(repaired.current_A[repeated_row]));
+  CHECK(repaired.shaft_rad[repeated_row] == Approx(exact.shaft_rad[repeated_row]).margin(0.02));
+  CHECK(repaired.shaft_rad[repeated_row] != repaired.shaft_rad[repeated_row - 1]);
 }
 
-TEST_CASE("rows sampled up to 1.5 ms late are jitter in all sensors, noise in one") {
+TEST_CASE(
+    "delays of rows up to 1.5 ms are identified as jitter in all sensors, but not in a single "
+    "sensor") {
   auto all = recordings();
-  for (Episode& e : all) sample_late(e, 0.0015);
+  for (Episode& e : all) delay_rows(e, 0.0015);
   CHECK(row_jitter_s(all) == Approx(0.0015).epsilon(0.15));
-  auto one = recordings();
-  for (std::size_t e = 0; e < one.size(); ++e)
-    one[e].actuators[0].shaft_rad = all[e].actuators[0].shaft_rad;
-  CHECK(row_jitter_s(one) == 0);
+  auto single_sensor = recordings();
+  for (std::size_t e = 0; e < single_sensor.size(); ++e)
+    single_sensor[e].actuators[0].shaft_rad = all[e].actuators[0].shaft_rad;
+  CHECK(row_jitter_s(single_sensor) == 0);
 }

@@ -17,9 +17,9 @@ sim::effects::Placed on_flexor(const char* type) {
 
 }  // namespace
 
-TEST_CASE("an effect whose interval contains its neutral value is dropped if the others explain") {
+TEST_CASE("an effect whose interval contains its neutral value is removed if the others explain") {
   auto blind = blind_recording::nothing_hidden();
-  blind.hidden_effects.chains[0].viscous = 0.02;  // flexor
+  blind.hidden_effects.channels[0].viscous = 0.02;  // flexor
   const auto recordings = blind_recording::episodes(blind, 8);
   const std::span<const sim::residuals::Episode> each(recordings);
   const erp::Robot robot = hinge_rig();
@@ -28,13 +28,14 @@ TEST_CASE("an effect whose interval contains its neutral value is dropped if the
   const Uncertain exact = uncertain_of(robot, {}, true);
   const Search search(train, held_out, exact, {});
 
-  const Found both = search.with({on_flexor("gearbox_viscous"), on_flexor("gearbox_stribeck")});
+  const JudgedEstimate both =
+      search.with({on_flexor("gearbox_viscous"), on_flexor("gearbox_stribeck")});
   REQUIRE(both.train.point.effects.size() == 2);
-  const Found one = search.without_doubtful(both);
+  const JudgedEstimate one = search.without_doubtful(both);
   REQUIRE(one.train.point.effects.size() == 1);
   CHECK(sim::effects::name_of(one.train.point.effects[0]) == "gearbox_viscous on flexor");
 
-  // A wrong effect alone leaves a stage with more than noise, so this function does not drop it.
-  const Found wrong = search.with({on_flexor("gearbox_asymmetric")});
+  // A single wrong effect is not removed because a stage is open without it.
+  const JudgedEstimate wrong = search.with({on_flexor("gearbox_asymmetric")});
   CHECK(search.without_doubtful(wrong).train.point.effects.size() == 1);
 }

@@ -12,7 +12,7 @@ namespace {
 
 Placed neutral(const char* type) { return {"flexor", *sim::effects::neutral(type)}; }
 
-/// z as a linear function of the effect's sizes with these slopes.
+/// z as a linear function of an effect's sizes with these slopes.
 ChangedBy linear(std::vector<double> slopes) {
   return [slopes](const Placed& placed) {
     sim::effects::AnyEffect effect = placed.effect;
@@ -27,7 +27,8 @@ ChangedBy linear(std::vector<double> slopes) {
 
 }  // namespace
 
-TEST_CASE("a cogging is tried with the periods of its residual, without them with its own") {
+TEST_CASE(
+    "a cogging is evaluated with the given numbers of periods, or with its default without any") {
   const auto shapes = shaped(neutral("motor_cogging"), {7, 31});
   REQUIRE(shapes.size() == 2);
   CHECK(std::get<sim::effects::MotorCogging>(shapes[1].effect).periods_per_turn == 31);
@@ -35,11 +36,11 @@ TEST_CASE("a cogging is tried with the periods of its residual, without them wit
   CHECK(shaped(neutral("motor_cogging"), {}).size() == 1);
 }
 
-TEST_CASE("a law with a speed is tried with seven values and its own") {
-  CHECK(shaped(neutral("gearbox_stribeck"), {}).size() == 8);  // 7 grid values and its own
+TEST_CASE("a law with a speed is evaluated with seven scanned values and its default") {
+  CHECK(shaped(neutral("gearbox_stribeck"), {}).size() == 8);
 }
 
-TEST_CASE("an effect without a shape parameter is tried once") {
+TEST_CASE("an effect without a shape parameter is evaluated once") {
   CHECK(shaped(neutral("tendon_stiffness"), {}).size() == 1);
 }
 
@@ -56,13 +57,13 @@ TEST_CASE("the perturbation of a size changes z by a small part of its noise for
   }
 }
 
-TEST_CASE("a second size of the same kind is perturbed although the first changes nothing") {
+TEST_CASE("a second size of the same kind is perturbed although the first does not change z") {
   const Placed shape = neutral("routing_capstan");  // around the path's bends, and around a post
   const auto sizes = sizes_of(shape);
   auto by = first_perturbations(shape, sizes);
-  const auto tried = by[0];
+  const auto initial = by[0];
   const Sensitivities all = sensitivities(shape, sizes, by, linear({0, 50}));
-  CHECK(by[0] == tried);
+  CHECK(by[0] == initial);
   CHECK(all.d.col(0).norm() == 0);
   CHECK(all.d(1, 1) == Approx(50 * all.perturbation[1]));
   CHECK(all.d.col(1).norm() / 2 > 0.0007);
@@ -79,7 +80,7 @@ TEST_CASE("secants exist only for nonlinear laws with one size from 0 on") {
   CHECK(count("tendon_creep") == 0);  // shaped by its time constant, linear in its stiffness
 }
 
-TEST_CASE("a window that jumps does not count in the change by a tiny step") {
+TEST_CASE("a window that jumps is ignored in the change by a tiny step") {
   Eigen::VectorXd before = Eigen::VectorXd::Zero(1000), after = before;
   for (Eigen::Index k = 0; k < 1000; ++k)
     before[k] = std::sin(0.1 * double(k)), after[k] = before[k] + 1e-3 * std::cos(double(k));

@@ -15,7 +15,7 @@ TEST_CASE("calibration of a simulated robot gives the constants of the simulatio
     recordings.push_back(rig_recording::record(
         robot, robot, {.swing_N = 10.0 + 4 * double(seed), .ripple_Hz = 2.5, .seed = seed}));
   const AsBuilt found = calibrated(robot, recordings);
-  CHECK(found.beyond.empty());
+  CHECK(found.beyond_tolerance.empty());
   for (std::size_t k = 0; k < found.uncertain.constants.size(); ++k) {
     const Constant& c = found.uncertain.constants[k];
     INFO(c.on << " " << c.name << " " << c.value(found.estimate.point.x[k]) << ", "

@@ -24,7 +24,8 @@ erp::Robot hinge_rig() { return erp::read_robot(rigs::config("hinge_rig/robot.xm
 
 }  // namespace
 
-TEST_CASE("repeated rows are dropped, two missing rows interpolated, twenty left as NaN") {
+TEST_CASE(
+    "repeated rows are dropped, two missing rows are interpolated, twenty missing rows are NaN") {
   recording::Table table = sine(1000);
   for (auto& column : table.columns) {
     column.values.insert(column.values.begin() + 101, column.values[100]);  // repeated row
@@ -58,7 +59,7 @@ TEST_CASE("a time in ms, µs or ns is rejected with the divisor to use") {
   }
 }
 
-TEST_CASE("sign flips of a quaternion are removed, and its short gaps interpolated") {
+TEST_CASE("sign flips of a quaternion are removed, and its short gaps are interpolated") {
   const erp::Robot robot = erp::read_robot(rigs::config("arm/robot.xml"));
   const auto joints = robot.joints();
   const auto ball =
@@ -67,10 +68,10 @@ TEST_CASE("sign flips of a quaternion are removed, and its short gaps interpolat
   for (const char* part : {".qw", ".qx", ".qy", ".qz"})
     table.columns.push_back({ball->name + part, Signal(100, 0.0)});
   for (std::size_t k = 0; k < 100; ++k) {
-    const double way = k < 50 ? 1 : -1, half_rad = 0.002 * double(k);
+    const double sign = k < 50 ? 1 : -1, half_rad = 0.002 * double(k);
     table.columns[0].values.push_back(0.002 * double(k));
-    table.columns[1].values[k] = way * std::cos(half_rad);
-    table.columns[2].values[k] = way * std::sin(half_rad);
+    table.columns[1].values[k] = sign * std::cos(half_rad);
+    table.columns[2].values[k] = sign * std::sin(half_rad);
   }
   for (std::size_t c = 1; c < 5; ++c)
     for (const std::size_t k : {49, 50, 51}) table.columns[c].values[k] = recording::not_taken;
@@ -84,12 +85,13 @@ TEST_CASE("sign flips of a quaternion are removed, and its short gaps interpolat
 }
 
 TEST_CASE(
-    "jittered times are rejected without numbered frames and replaced by the ticks with them") {
+    "jittered times are rejected without numbered frames and replaced by ticks with numbered "
+    "frames") {
   recording::Table table = sine(1000);
   Signal ticks;
   for (std::size_t k = 0; k < 1000; ++k) {
     ticks.push_back(static_cast<double>(7 + k));
-    if (k % 10 == 5) table.columns[0].values[k] += 0.0015;  // late, and the next soon after
+    if (k % 10 == 5) table.columns[0].values[k] += 0.0015;  // 0.5 ms before the next row
   }
   std::vector<std::string> remarks;
   CHECK_THROWS_WITH(lay_out(table, hinge_rig(), "x", remarks), Catch::Contains("of arrival"));
@@ -123,7 +125,7 @@ TEST_CASE("an outlier of a shaft angle is dropped, a jump of a voltage is not") 
   CHECK(remarks[0] == "run.csv: flexor.shaft_rad: 1 outlier dropped");
 }
 
-TEST_CASE("times of which most are repeated are rejected with the reason") {
+TEST_CASE("a recording with mostly repeated times is rejected with the reason") {
   recording::Table table = sine(1000);
   for (double& t : table.columns[0].values) t = std::round(100 * t) / 100;
   std::vector<std::string> remarks;

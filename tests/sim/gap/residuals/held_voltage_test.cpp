@@ -17,13 +17,14 @@ erp::MotorType motor(double inductance_H) {
   return m;
 }
 
-struct Seen {
+/// Samples at three rows.
+struct Samples {
   double current_A[3], angle_rad[3];
 };
 
-/// The motor from 1.3 A and 2 rad/s, integrated in steps of 20 ns (midpoint rule). The first of three voltages is the
-/// previous one, which acts during the delay of the driver.
-Seen run(const erp::MotorType& m, const double (&all)[3], double load_Nm, double late_s) {
+/// Simulates the motor from 1.3 A and 2 rad/s in steps of 20 ns (midpoint rule). The first of three
+/// voltages is the previous one, which acts during the delay of the driver.
+Samples run(const erp::MotorType& m, const double (&voltages)[3], double load_Nm, double delay_s) {
   const double n = m.gear_ratio, inertia = shaft_inertia_kg_m2(m), dt = 2e-8;
   double i = 1.3, w = 2, angle = 0;
   const auto rates = [&](double v, double amps, double speed) {
@@ -31,30 +32,32 @@ Seen run(const erp::MotorType& m, const double (&all)[3], double load_Nm, double
         (v - m.resistance_ohm * amps - m.back_emf_V_s_per_rad * n * speed) / m.inductance_H,
         (m.torque_Nm_per_A * n * amps - load_Nm) / inertia};
   };
-  Seen seen{{i}, {angle}};
+  Samples samples{{i}, {angle}};
   for (int k = 0; k < 2; ++k) {
     for (int s = 0; s < int(period_s / dt + 0.5); ++s) {
-      const double volts = all[s < int(late_s / dt + 0.5) ? k : k + 1];
+      const double volts = voltages[s < int(delay_s / dt + 0.5) ? k : k + 1];
       const auto [di, dw] = rates(volts, i, w);
       const auto [mi, mw] = rates(volts, i + dt / 2 * di, w + dt / 2 * dw);
       angle += dt * (w + dt / 2 * dw), i += dt * mi, w += dt * mw;
     }
-    seen.current_A[k + 1] = i, seen.angle_rad[k + 1] = angle;
+    samples.current_A[k + 1] = i, samples.angle_rad[k + 1] = angle;
   }
-  return seen;
+  return samples;
 }
 
 }  // namespace
 
 TEST_CASE(
-    "currents and voltages give the travel of the shaft, currents and travel the load, exactly") {
+    "currents and voltages determine the travel of the shaft exactly, currents and travel "
+    "determine "
+    "the load exactly") {
   const double inductance_H = GENERATE(57.3e-7, 57.3e-6, 722e-6, 1.8e-3), load_Nm = 2.7;
-  const double late_s = GENERATE(0.0, 3e-4, 1.5e-3);
-  CAPTURE(inductance_H, late_s);
+  const double delay_s = GENERATE(0.0, 3e-4, 1.5e-3);
+  CAPTURE(inductance_H, delay_s);
   const auto m = motor(inductance_H);
   const double volts[] = {1.2, 4.1, -2.6};
-  const Seen s = run(m, volts, load_Nm, late_s);
-  const TwoPeriods two = two_periods(m, period_s, late_s);
+  const Samples s = run(m, volts, load_Nm, delay_s);
+  const TwoPeriods two = two_periods(m, period_s, delay_s);
   double emf_V = 0, current_A = two.drives_per_V * volts[0];
   for (int k = 0; k < 3; ++k) {
     emf_V += two.volts[k] * volts[k];
@@ -63,9 +66,9 @@ TEST_CASE(
   }
   const double rad_per_s = (s.angle_rad[2] - s.angle_rad[0]) / (2 * period_s);
   current_A += two.drives_per_speed * rad_per_s;
-  const double bend = (s.angle_rad[2] - 2 * s.angle_rad[1]) / (period_s * period_s);
+  const double second_difference = (s.angle_rad[2] - 2 * s.angle_rad[1]) / (period_s * period_s);
   CHECK(emf_V == Approx(m.back_emf_V_s_per_rad * m.gear_ratio * rad_per_s).epsilon(1e-5));
-  CHECK(m.torque_Nm_per_A * m.gear_ratio * current_A - two.inertia_kg_m2 * bend ==
+  CHECK(m.torque_Nm_per_A * m.gear_ratio * current_A - two.inertia_kg_m2 * second_difference ==
         Approx(load_Nm).epsilon(1e-5));
 }
 
@@ -88,7 +91,7 @@ TEST_CASE("a winding of 1 H gives the weights of a triangular window") {
 }
 
 TEST_CASE("a force control averages the force of two periods with equal weights") {
-  erp::MotorType force{};  // as for a drive with force control
+  erp::MotorType force{};  // of a drive with force control
   force.resistance_ohm = 1, force.inductance_H = 1e-6, force.torque_Nm_per_A = 3;
   force.gear_ratio = force.gear_efficiency = 1, force.rotor_inertia_kg_m2 = 90;
   const auto two = two_periods(force, period_s);

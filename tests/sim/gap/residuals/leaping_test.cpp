@@ -15,7 +15,7 @@ namespace {
 constexpr double period_s = 0.002, pull_N = 10;
 constexpr int rows = 2000;
 
-/// Random steps, as of a smooth command over a bus that loses frames.
+/// Random steps, like a smooth command after a bus that loses frames.
 Signal random_steps(double low, double high, int count) {
   std::mt19937_64 random(1);
   Signal x;
@@ -33,21 +33,23 @@ double rms(const std::vector<double>& x) {
   return std::sqrt(square / double(x.size()));
 }
 
-/// A motor with voltage steps and a constant tension; currents at the rows, or means averaged them.
+/// Simulates a motor with voltage steps and a constant tension. `averaged`: currents are means
+/// around the rows, otherwise values at the rows.
 ActuatorSignals driven(const erp::Robot& robot, const erp::Actuator& actuator, bool averaged) {
-  constexpr int parts = 40;
-  const sim::Motor motor(robot.motor_of(actuator), actuator.spindle.radius_m, period_s / parts);
+  constexpr int substeps = 40;
+  const sim::Motor motor(robot.motor_of(actuator), actuator.spindle.radius_m, period_s / substeps);
   ActuatorSignals s;
   s.voltage_V = random_steps(5, 11, rows), s.tension_N = Signal(rows, pull_N);
   s.current_around = averaged;
   sim::MotorState state;
   Signal mean_A;
-  for (const double volts : s.voltage_V) {  // row k: the voltage, and the state at its end
+  for (const double volts :
+       s.voltage_V) {  // row k: the voltage, and the state at the end of its period
     mean_A.push_back(0);
-    for (int p = 0; p < parts; ++p) {
+    for (int p = 0; p < substeps; ++p) {
       const double before_A = state.current_A;
-      state = sim::step(motor, state, volts, pull_N, period_s / parts);
-      mean_A.back() += (before_A + state.current_A) / 2 / parts;
+      state = sim::step(motor, state, volts, pull_N, period_s / substeps);
+      mean_A.back() += (before_A + state.current_A) / 2 / substeps;
     }
     s.current_A.push_back(state.current_A), s.shaft_rad.push_back(state.shaft_rad);
   }
@@ -84,12 +86,12 @@ std::vector<Residual> stages_of(const erp::Robot& robot, const erp::Actuator& ac
 
 TEST_CASE(
     "a window gives the mean acceleration of a motion with random acceleration steps exactly") {
-  const Signal held = random_steps(-300, 300, 101);
+  const Signal acceleration = random_steps(-300, 300, 101);
   Signal speed{2}, x{1}, averaged{0};
-  for (std::size_t k = 0; k + 1 < held.size(); ++k) {
-    x.push_back(x[k] + period_s * (speed[k] + period_s / 2 * held[k]));
-    speed.push_back(speed[k] + period_s * held[k]);
-    averaged.push_back((held[k] + held[k + 1]) / 2);
+  for (std::size_t k = 0; k + 1 < acceleration.size(); ++k) {
+    x.push_back(x[k] + period_s * (speed[k] + period_s / 2 * acceleration[k]));
+    speed.push_back(speed[k] + period_s * acceleration[k]);
+    averaged.push_back((acceleration[k] + acceleration[k + 1]) / 2);
   }
   const Bump bump(0.03, period_s);
   for (const std::size_t k : {20u, 33u, 50u, 71u}) {

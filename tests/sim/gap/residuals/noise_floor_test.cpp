@@ -17,24 +17,24 @@ TEST_CASE(
   const Episode episode = rig_recording::record(robot, robot, {.seconds = 4});
   Stages stages(robot);
   const auto explained = stages.explain(episode);
-  const auto all = floors(stages, episode, robot);
+  const auto stage_floors = floors(stages, episode, robot);
   const auto tendon = std::ranges::find_if(explained.residuals, [](const Residual& r) {
     return r.stage == sim::effects::Stage::tendon && r.on == "flexor";
   });
-  const Floor& floor = all[std::size_t(tendon - explained.residuals.begin())];
+  const Floor& floor = stage_floors[std::size_t(tendon - explained.residuals.begin())];
   const Signal& tension = episode.actuators[0].tension_N;
-  double fastest = 0, slowest = 1e9, of_fastest = 0, of_slowest = 0;
-  for (std::size_t k = 0; k < floor.at.size(); ++k) {
+  double fastest = 0, slowest = 1e9, floor_at_fastest = 0, floor_at_slowest = 0;
+  for (std::size_t k = 0; k < floor.by_window.size(); ++k) {
     const std::size_t row = explained.rows[k];
     const double rate = std::abs(tension[row + 10] - tension[row - 10]);
-    if (rate > fastest) fastest = rate, of_fastest = floor.at[k];
-    if (rate < slowest) slowest = rate, of_slowest = floor.at[k];
+    if (rate > fastest) fastest = rate, floor_at_fastest = floor.by_window[k];
+    if (rate < slowest) slowest = rate, floor_at_slowest = floor.by_window[k];
   }
-  CHECK(of_fastest > of_slowest);
-  CHECK(of_slowest == floor.rms);
+  CHECK(floor_at_fastest > floor_at_slowest);
+  CHECK(floor_at_slowest == floor.rms);
 }
 
-TEST_CASE("the noise of a moving signal is estimated from its third differences") {
+TEST_CASE("the noise of a moving signal is estimated within 35 % from its third differences") {
   Signal slow;
   for (int k = 0; k < 2000; ++k) slow.push_back(std::sin(0.01 * k) + 0.01 * std::sin(37.0 * k * k));
   CHECK(noise_of(slow) == Approx(0.01 / std::numbers::sqrt2).epsilon(0.35));

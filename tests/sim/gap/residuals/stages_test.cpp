@@ -16,6 +16,7 @@ namespace {
 
 erp::Robot hinge_rig() { return erp::read_robot(rigs::config("hinge_rig/robot.xml")); }
 
+/// The rig with one effect of visible size.
 erp::Robot with(const std::string& type) {
   erp::Robot robot = hinge_rig();
   const auto effect = magnitudes::visible(type);
@@ -47,15 +48,15 @@ Episode with_a_gap(Episode episode) {
   return episode;
 }
 
-/// An effect and the stages at which the nominal robot's residual rises.
+/// An effect and the stages at which it raises the nominal robot's residual.
 struct Signature {
   const char* type;
-  std::vector<std::string> at;
+  std::vector<std::string> stages;
 };
 
-// Not included: effects that this motion does not excite (stiction, inductance, backlash, an attachment that lies on
-// its pulley), effects that cannot be inverted (quantization), and the bus.
-const std::vector<Signature> signs{
+// Not included: effects that this motion does not excite (stiction, inductance, backlash, an
+// attachment that lies on its pulley), effects that cannot be inverted (quantization), and the bus.
+const std::vector<Signature> signatures{
     {"motor_resistance", {"motor flexor", "gearbox flexor"}},
     {"motor_torque_constant", {"motor flexor", "gearbox flexor"}},
     {"motor_dead_band", {"motor flexor"}},
@@ -102,8 +103,8 @@ TEST_CASE("without effects the residual of each stage is the sensor noise") {
   CHECK(residuals.size() == 7);
   for (const auto& [stage, value] : residuals) {
     INFO(stage);
-    // V: 15 mA over 0.516 ohm; Nm: the same at the gearbox, and 0.5 mrad twice differentiated; N:
-    // 0.05 N, and 0.5 mrad by 25 mm by 6000 N/m; all over some ten samples
+    // Noise, averaged over about ten samples. Motor: 15 mA · 0.516 ohm. Gearbox: 15 mA at the
+    // gearbox, and 0.5 mrad differentiated twice. Tendon: 0.05 N, and 0.5 mrad · 25 mm · 6000 N/m.
     const double noise = stage.starts_with("motor")     ? 0.0077
                          : stage.starts_with("gearbox") ? 0.022
                          : stage.starts_with("tendon")  ? 0.09
@@ -113,31 +114,34 @@ TEST_CASE("without effects the residual of each stage is the sensor noise") {
   }
 }
 
-TEST_CASE("a winding twelve times slower has the same residuals") {
+TEST_CASE(
+    "a winding with twelve times the inductance has residuals below 1.1 times the usual ones") {
   erp::Robot slow = hinge_rig();
   for (auto& motor : slow.motor_types) motor.inductance_H *= 12;
-  const auto quick = rms(Stages(hinge_rig()), rig_recording::record(hinge_rig(), hinge_rig(), {}));
+  const auto usual = rms(Stages(hinge_rig()), rig_recording::record(hinge_rig(), hinge_rig(), {}));
   for (const auto& [stage, value] : rms(Stages(slow), rig_recording::record(slow, slow, {}))) {
     INFO(stage);
-    CHECK(value < 1.1 * quick.at(stage));
+    CHECK(value < 1.1 * usual.at(stage));
   }
 }
 
-TEST_CASE("an effect raises only the residuals of its stages, and none of the robot that has it") {
-  const Episode plain = rig_recording::record(hinge_rig(), hinge_rig(), {});
-  const auto floor = rms(Stages(hinge_rig()), plain);
-  for (const Signature& sign : signs) {
-    const erp::Robot real = with(sign.type);
+TEST_CASE(
+    "an effect raises only the residuals of its stages, and no residual of a model with the "
+    "effect") {
+  const Episode without_effects = rig_recording::record(hinge_rig(), hinge_rig(), {});
+  const auto floor = rms(Stages(hinge_rig()), without_effects);
+  for (const Signature& signature : signatures) {
+    const erp::Robot real = with(signature.type);
     const Episode episode = rig_recording::record(hinge_rig(), real, {});
-    const auto nominal = rms(Stages(hinge_rig()), episode), right = rms(Stages(real), episode);
+    const auto nominal = rms(Stages(hinge_rig()), episode), corrected = rms(Stages(real), episode);
     const auto cut = rms(Stages(real), with_a_gap(episode));
     for (const auto& [stage, value] : nominal) {
-      INFO(sign.type << " at " << stage << ": " << value / floor.at(stage) << ", with it "
-                     << right.at(stage) / floor.at(stage) << " times the floor");
-      const bool shows = std::ranges::count(sign.at, stage) > 0;
-      if (shows) CHECK(value > 1.3 * floor.at(stage));
+      INFO(signature.type << " at " << stage << ": " << value / floor.at(stage) << ", with it "
+                          << corrected.at(stage) / floor.at(stage) << " times the floor");
+      const bool is_affected = std::ranges::count(signature.stages, stage) > 0;
+      if (is_affected) CHECK(value > 1.3 * floor.at(stage));
       else CHECK(value < 1.25 * floor.at(stage));
-      CHECK(right.at(stage) < 1.8 * floor.at(stage));
+      CHECK(corrected.at(stage) < 1.8 * floor.at(stage));
       CHECK(cut.at(stage) < 2.1 * floor.at(stage));  // hysteresis restarts after a gap
     }
   }
@@ -145,7 +149,7 @@ TEST_CASE("an effect raises only the residuals of its stages, and none of the ro
 
 namespace {
 
-/// The residual of the flexor's tendon with a spindle radius scaled by `factor`.
+/// The residual of the flexor's tendon for a spindle radius multiplied by `factor`.
 std::vector<double> flexor_residual(const Episode& episode, double factor) {
   erp::Robot robot = hinge_rig();
   robot.actuators[0].spindle.radius_m *= factor;
@@ -161,24 +165,28 @@ TEST_CASE("the residual of a tendon that becomes taut is a smooth function of th
   const erp::Robot robot = hinge_rig();
   Episode episode = rig_recording::record(robot, robot, {.seconds = 6});
   const erp::Actuator& flexor = robot.actuators[0];
-  const double drawn_N = 20,
-               slack_rad = drawn_N / flexor.tendon.stiffness_N_per_m / flexor.spindle.radius_m;
+  const double released_N = 20,
+               slack_rad = released_N / flexor.tendon.stiffness_N_per_m / flexor.spindle.radius_m;
   for (double& theta : episode.actuators[0].shaft_rad) theta -= slack_rad;
   std::vector<double> before = flexor_residual(episode, 1);
-  double usual = 0, most = 0;
+  double smallest_step = 0, largest_step = 0;
   for (int k = 1; k <= 200; ++k) {
     const std::vector<double> after = flexor_residual(episode, 1 + 2e-6 * k);
     double step = 0;
     for (std::size_t n = 0; n < after.size(); ++n)
       if (!std::isnan(after[n] - before[n])) step = std::max(step, std::abs(after[n] - before[n]));
-    usual = k == 1 ? step : std::min(usual, step), most = std::max(most, step);
+    smallest_step = k == 1 ? step : std::min(smallest_step, step);
+    largest_step = std::max(largest_step, step);
     before = after;
   }
-  CHECK(usual > 0);
-  CHECK(most < 3 * usual);
+  CHECK(smallest_step > 0);
+  CHECK(largest_step < 3 * smallest_step);
 }
 
-TEST_CASE("residuals without tension use the spring law, without current the motor law") {
+TEST_CASE(
+    "residuals without tensions are computed with the spring's law, residuals without currents "
+    "with "
+    "the motor's law") {
   Episode episode = rig_recording::record(hinge_rig(), hinge_rig(), {});
   const auto all = rms(Stages(hinge_rig()), episode);
   for (auto& actuator : episode.actuators) actuator.tension_N.clear();
