@@ -14,8 +14,8 @@ struct Spot {
 
 struct SpotOptions {
   int threshold = 90;
-  double least_px = 6;    ///< smaller ones are noise
-  double most_px = 2000;  ///< larger ones are lamps
+  double min_area_px = 6;     ///< smaller ones are noise
+  double max_area_px = 2000;  ///< larger ones are lamps
 };
 
 /// The spots of an image, in no particular order.

@@ -51,7 +51,8 @@ std::optional<erp::JointTarget> JointPlayer::step(const erp::SensorFrame& frame,
   on_path_ = on_path_ || (begun_ && catching_up_s_ >= catch_up_.duration_s());
   if (on_path_ && !missed) path_s_ += dt_s;
   update_reference();
-  if (!begun_ || missed || joints::apart_rad(now_, reference_) > params_.lost_rad) begin_catch_up();
+  if (!begun_ || missed || joints::largest_rotation_rad(now_, reference_) > params_.lost_rad)
+    begin_catch_up();
   erp::JointTarget target;
   names_.write(reference_, target);
   return target;
