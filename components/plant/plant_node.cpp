@@ -106,7 +106,7 @@ bool PlantNode::all_answered() const {
   const auto answered = static_cast<std::size_t>(std::count_if(
       answers_.begin(), answers_.end(), [&](const Answer& a) { return a.answers >= frame_; }));
   return answered >= command_in_->matched() ||
-         node::monotonic_ns() - pending_since_ns_ > node::lockstep_patience_ns;
+         node::monotonic_ns() - pending_since_ns_ > node::lockstep_timeout_ns;
 }
 
 void PlantNode::answer() {

@@ -1,5 +1,6 @@
-// Duration of motion capture for a pair of images, and error of its joint angles: the arm moves through its figure at 100
-// pairs per second, with noise and bone lengths of configs/arm/motion_capture.xml.
+// Duration of motion capture for a pair of images, and error of its joint angles: the arm moves
+// through its figure at 100 pairs per second, with noise and bone lengths of
+// configs/arm/motion_capture.xml.
 #include <cstdio>
 #include <numbers>
 
@@ -56,7 +57,7 @@ int main() {
     std::array<sim::cameras::Image, 2> pair;
     std::optional<capture::Captured> found;
     rendering.take([&] { pair = studio.images(truth); });
-    capturing_times.take([&] { found = capturing.see(pair[0], pair[1], period_s); });
+    capturing_times.take([&] { found = capturing.process(pair[0], pair[1], period_s); });
     if (found) errors.take(*found, truth);
   }
   print("render a pair", rendering);

@@ -31,7 +31,7 @@ void BusLink::poll(const Handlers& handlers) {
 std::vector<node::Peer> BusLink::peers() {
   peers_.discover();
   std::vector<node::Peer> found;
-  for (const auto& peer : peers_.known())
+  for (const auto& peer : peers_.others())
     if (peer.robot == robot_) found.push_back(peer);
   return found;
 }

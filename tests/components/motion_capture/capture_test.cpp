@@ -24,7 +24,8 @@ double apart(const sim::JointReading& a, const sim::JointReading& b) {
   return std::hypot(way[0], way[1], way[2]);
 }
 
-/// Result of tracking the arm through its figure: RMS error by joint over the images in which it was found.
+/// Result of tracking the arm through its figure: RMS error by joint over the images in which it
+/// was found.
 struct Tracked {
   std::vector<double> rms_rad;
   int images = 0, found = 0;
@@ -42,7 +43,7 @@ Tracked track_figure(Studio& studio, std::span<const sim::cameras::Bone> more = 
     joints.clear();
     for (const auto& motion : motions) joints.push_back(motion.now);
     const auto pair = studio.images(joints, more);
-    const auto seen = capture.see(pair[0], pair[1], period_s);
+    const auto seen = capture.process(pair[0], pair[1], period_s);
     ++tracked.images;
     if (!seen) continue;
     ++tracked.found;
@@ -117,15 +118,15 @@ TEST_CASE("a robot that was hidden, or is not at its predicted pose, is found") 
   joints[0].position =
       sim::gone(joints[0].type, joints[0].position, std::array<double, 3>{0.3, -0.5, 0.4});
   const auto pair = studio.images(joints);
-  const auto seen = capture.see(pair[0], pair[1], period_s);
+  const auto seen = capture.process(pair[0], pair[1], period_s);
   REQUIRE(seen);
   for (std::size_t j = 0; j < joints.size(); ++j)
     CHECK(apart(seen->joints[j], joints[j]) < 0.5 * degree);
   const sim::cameras::Bone wall{{0.5, -2, -0.2}, {0.5, 2, -0.2}, 1};
   const auto hidden = studio.images(joints, std::span(&wall, 1));
-  CHECK_FALSE(capture.see(hidden[0], hidden[1], period_s));
+  CHECK_FALSE(capture.process(hidden[0], hidden[1], period_s));
   CHECK(capture.lost());
-  CHECK(capture.see(pair[0], pair[1], period_s));
+  CHECK(capture.process(pair[0], pair[1], period_s));
 }
 
 TEST_CASE("a joint whose body is hidden is unknown, and is found again at another angle") {
@@ -134,15 +135,15 @@ TEST_CASE("a joint whose body is hidden is unknown, and is found again at anothe
   std::vector<sim::JointReading> joints;
   for (const auto& joint : studio.robot.joints()) joints.push_back(sim::start_of(joint));
   auto pair = studio.images(joints);
-  REQUIRE(capture.see(pair[0], pair[1], period_s));
+  REQUIRE(capture.process(pair[0], pair[1], period_s));
   const sim::cameras::Bone wall{{0.6, -2, -0.67}, {0.6, 2, -0.67}, 0.55};
   pair = studio.images(joints, std::span(&wall, 1));
-  auto seen = capture.see(pair[0], pair[1], period_s);
+  auto seen = capture.process(pair[0], pair[1], period_s);
   REQUIRE(seen);
   CHECK(seen->known == std::vector{true, false});
   joints[1].position[0] = 1.5;
   pair = studio.images(joints);
-  seen = capture.see(pair[0], pair[1], period_s);
+  seen = capture.process(pair[0], pair[1], period_s);
   REQUIRE(seen);
   CHECK(seen->known == std::vector{true, true});
   CHECK(apart(seen->joints[1], joints[1]) < 0.5 * degree);

@@ -36,13 +36,13 @@ struct Studio {
     std::vector<sim::cameras::Ball> all;
     for (const Marker& m : markers) {
       const sim::BodyPose& body = bones.poses()[m.body];
-      all.push_back({body.position_m + body.rotation * m.at_m, params.film.ball_m});
+      all.push_back({body.position_m + body.rotation * m.at_m, params.image_params.ball_m});
     }
     return all;
   }
   std::vector<sim::cameras::Bone> limbs() const {
     std::vector<sim::cameras::Bone> all;
-    for (const auto& bone : params.film.bones) {
+    for (const auto& bone : params.image_params.bones) {
       const auto body = std::size_t(std::ranges::find(tree.names, bone.body) - tree.names.begin());
       const sim::BodyPose& pose = bones.poses()[body];
       const auto at = [&](const xml::Vec3& v) {
