@@ -14,8 +14,8 @@ constexpr auto usage =
 int port_of(const std::string& text) {
   int port = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
-  const bool whole = error == std::errc() && end == text.data() + text.size();
-  if (!whole || port < 1 || port > 65535)
+  const bool is_number = error == std::errc() && end == text.data() + text.size();
+  if (!is_number || port < 1 || port > 65535)
     throw std::invalid_argument("port \"" + text + "\" is not a number from 1 to 65535; " + usage);
   return port;
 }
@@ -38,13 +38,13 @@ std::unique_ptr<CanBus> open_by_name(const std::string& specification, const Bus
   throw std::invalid_argument("unknown back end \"" + backend + "\"; " + usage);
 }
 
-constexpr int first_port = 20000, ports_a_domain = 16;  // chosen
+constexpr int first_port = 20000, ports_per_domain = 16;  // chosen
 
 }  // namespace
 
-std::string own_bus() {
+std::string default_bus() {
   const char* domain = std::getenv("ERP_DOMAIN");
-  const int port = first_port + ports_a_domain * (domain ? std::atoi(domain) : 0);
+  const int port = first_port + ports_per_domain * (domain ? std::atoi(domain) : 0);
   return "udp:239.255.42.1:" + std::to_string(port);
 }
 

@@ -1,4 +1,5 @@
-// Target: arbitrary frames from the bus and arbitrary messages from the plant, as input of the gateway of hal/can.
+// Target: arbitrary frames from the bus and arbitrary messages from the plant, as input of the
+// gateway of hal/can.
 #include "hal/can/gateway.hpp"
 
 #include "tests/fuzz/frames.hpp"
@@ -30,8 +31,8 @@ class Bus {
     fuzz::require(gateway_.frame().channels._length == robot.actuators.size() &&
                       gateway_.frame().analogs._length == robot.joint_sensors.size(),
                   "a tick has every channel and input of robot.xml");
-    fuzz::require(gateway_.emergencies().size() <= erp::Gateway::emergencies_kept &&
-                      gateway_.hellos().size() <= erp::Gateway::hellos_kept,
+    fuzz::require(gateway_.emergencies().size() <= erp::Gateway::max_emergencies &&
+                      gateway_.hellos().size() <= erp::Gateway::max_hellos,
                   "the number of stored messages is bounded");
   }
 

@@ -86,8 +86,8 @@ TEST_CASE("each ERP_DOMAIN has its own ports, one for each possible bus of a rob
   const char* before = std::getenv("ERP_DOMAIN");
   const std::string domain = before ? before : "0";
   setenv("ERP_DOMAIN", "0", 1);
-  CHECK(erp::own_bus() == "udp:239.255.42.1:20000");
+  CHECK(erp::default_bus() == "udp:239.255.42.1:20000");
   setenv("ERP_DOMAIN", "3", 1);
-  CHECK(erp::own_bus() == "udp:239.255.42.1:20048");
+  CHECK(erp::default_bus() == "udp:239.255.42.1:20048");
   setenv("ERP_DOMAIN", domain.c_str(), 1);
 }

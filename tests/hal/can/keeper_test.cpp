@@ -1,5 +1,5 @@
-// Supervision of a bus by the gateway: pure, on a simulated bus. slcan_test does the same with the error
-// frames of a real controller.
+// Supervision of a bus by the gateway: pure, on a simulated bus. slcan_test does the same with the
+// error frames of a real controller.
 #include "hal/can/bus_keeper.hpp"
 
 #include <catch2/catch.hpp>
@@ -43,15 +43,15 @@ TEST_CASE("a bus in bus-off is restarted three times, 100 ms apart, then no more
   std::vector<std::int64_t> at;
   bool gave_up = false;
   for (std::int64_t now = 0; now < 2000 * ms; now += ms) switch (recovery.step(true, now)) {
-      case BusRecovery::Do::restart:
+      case BusRecovery::Action::restart:
         REQUIRE_FALSE(gave_up);
         at.push_back(now / ms);
         break;
-      case BusRecovery::Do::give_up:
+      case BusRecovery::Action::give_up:
         REQUIRE_FALSE(gave_up);
         gave_up = true;
         break;
-      case BusRecovery::Do::nothing:
+      case BusRecovery::Action::nothing:
         break;
     }
   CHECK(at == std::vector<std::int64_t>{0, 100, 200});
@@ -61,10 +61,10 @@ TEST_CASE("a bus in bus-off is restarted three times, 100 ms apart, then no more
 TEST_CASE("after ten seconds without bus-off the restarts are available again") {
   BusRecovery recovery;
   const auto restarts_again = [&](std::int64_t now) {
-    return recovery.step(true, now) == BusRecovery::Do::restart;
+    return recovery.step(true, now) == BusRecovery::Action::restart;
   };
   for (int k = 0; k < 3; ++k) CHECK(restarts_again(k * 100 * ms));
-  CHECK(recovery.step(false, 9000 * ms) == BusRecovery::Do::nothing);
+  CHECK(recovery.step(false, 9000 * ms) == BusRecovery::Action::nothing);
   CHECK(recovery.restarts() == 3);
   recovery.step(false, 10'201 * ms);
   CHECK(recovery.restarts() == 0);

@@ -113,7 +113,7 @@ TEST_CASE("dropped frames are counted and not sent later") {
 
 TEST_CASE("gains beyond the capacity are counted as dropped") {
   erp::Outbox outbox;
-  const std::vector<erp::CanFrame> many(erp::Outbox::most_others + 7, parameter(3));
+  const std::vector<erp::CanFrame> many(erp::Outbox::max_others + 7, parameter(3));
   outbox.put(many, 0);
   CHECK(outbox.dropped() == 7);
 }
