@@ -25,12 +25,12 @@ void ecu_link_bus(ecu_link* link, bool off) {
 
 static bool receive_corrupt(ecu_link* link) {
   ++link->corrupt;
-  if (++link->corrupt_in_a_row >= ECU_CORRUPT_TRIP) trip_both(link, ECU_FAULT_CORRUPT);
+  if (++link->consecutive_corrupt >= ECU_CORRUPT_TRIP) trip_both(link, ECU_FAULT_CORRUPT);
   return false;
 }
 
-/* Whether the command is newer than the last received one. Counters run modulo 8; one or two behind
- * is late. */
+/* True if the command is newer than the last received one. Counters run modulo 8; a command that is
+ * one or two counts behind is outdated. */
 static bool is_fresh(ecu_link* link, const frame_command* command) {
   if (!link->has_received) return true;
   const unsigned ahead = frame_ahead(command->count, link->last_count);
@@ -64,7 +64,8 @@ static uint8_t position_after(uint8_t position) {
   return position == 255 ? 1 : (uint8_t)(position + 1);
 }
 
-/* Position 0 begins a set; the same position again is a repeated frame; a gap invalidates the set. */
+/* Position 0 begins a set; the same position again is a repeated frame; a gap invalidates the
+ * set. */
 static bool receive_parameter(ecu_link* link, const frame_parameter* content) {
   const uint8_t k = content->channel, last = link->last_position[k];
   ecu_channel* channel = link->channel[k];
@@ -98,7 +99,7 @@ bool ecu_link_receive(ecu_link* link, const bus_frame* frame) {
   frame_parameter parameter;
   const bool is_command = frame_unpack_command(frame, &command);
   if (!is_command && !frame_unpack_parameter(frame, &parameter)) return receive_corrupt(link);
-  link->corrupt_in_a_row = 0;
+  link->consecutive_corrupt = 0;
   return is_command ? receive_command(link, &command) : receive_parameter(link, &parameter);
 }
 
@@ -191,14 +192,15 @@ static unsigned pack_healths(ecu_link* link, const ecu_report* report, bool all,
   const bool due = (link->tick + link->ecu) % ECU_HEALTH_TICKS == 0;
   for (uint8_t k = 0; k < 2; ++k)
     for (uint8_t page = 0; page < 2; ++page)
-      if (link->channel[k] && (all || (due && link->health_turn == 2 * page + k)))
+      if (link->channel[k] && (all || (due && link->next_health_page == 2 * page + k)))
         pack_health(link, k, page, &report->channel[k], &frames[count++]);
-  if (due) link->health_turn = (link->health_turn + 1) & 3;
+  if (due) link->next_health_page = (link->next_health_page + 1) & 3;
   return count;
 }
 
-unsigned ecu_link_pack(ecu_link* link, const ecu_report* report, bool whole, bus_frame* frames) {
-  const bool all = whole || link->hello_requested;
+unsigned ecu_link_pack(ecu_link* link, const ecu_report* report, bool all_pages,
+                       bus_frame* frames) {
+  const bool all = all_pages || link->hello_requested;
   link->hello_requested = false;
   unsigned count = pack_new_faults(link, report, frames);
   if (all) pack_hello(link, &frames[count++]);

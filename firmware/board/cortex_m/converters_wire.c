@@ -3,20 +3,21 @@
 
 static wire_reader reader;
 static wire_fault injected; /* since the last converters_fault */
-static uint8_t own;
+static uint8_t own_address;
 
 static void send(const uint8_t* bytes, unsigned count) {
-  (void)usart_send(USART_ROBOT, bytes, count); /* no room: the next period sends it again */
+  (void)usart_send(USART_ROBOT, bytes,
+                   count); /* without room the message is lost; the next period sends a new one */
 }
 
 void converters_open(uint8_t ecu) {
-  own = ecu;
+  own_address = ecu;
   usart_open(USART_ROBOT);
 }
 
 void converters_start(uint8_t turn) {
   uint8_t bytes[WIRE_MESSAGE_MAX];
-  send(bytes, wire_pack_sample(bytes, own, turn));
+  send(bytes, wire_pack_sample(bytes, own_address, turn));
 }
 
 bool converters_done(board_readings* readings) {
@@ -38,5 +39,5 @@ wire_fault converters_fault(void) {
 
 void pwm_set(const int16_t* duty) {
   uint8_t bytes[WIRE_MESSAGE_MAX];
-  send(bytes, wire_pack_drive(bytes, own, duty));
+  send(bytes, wire_pack_drive(bytes, own_address, duty));
 }
