@@ -28,7 +28,7 @@ void asks(Bench& bench, double reference, int times) {
 }
 
 /// Fails if the flexor's ECU has received a force command since then.
-tests::Complaints forces_since(Bench& bench, std::int64_t from_ns) {
+tests::Findings forces_since(Bench& bench, std::int64_t from_ns) {
   int forces = 0;
   for (const auto& received : bench.bus_recorder().since(from_ns)) {
     frame_command message;

@@ -1,4 +1,5 @@
-// Conformance tests for all devices (sim, can, replay); closed-loop tests on sim and can; repeatability of runs.
+// Conformance tests for all devices (sim, can, replay); closed-loop tests on sim and can;
+// repeatability of runs.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
@@ -39,8 +40,8 @@ std::string exported(const std::string& file) {
   return outcome.output;
 }
 
-/// Removes repeated frames. In lockstep a device repeats a frame if no command arrives within 0.2 s, which happens on
-/// a busy machine.
+/// Removes repeated frames. In lockstep a device repeats a frame if no command arrives within 0.2
+/// s, which happens on a busy machine.
 std::vector<recording::Members> without_repeats(const std::vector<recording::Members>& frames) {
   std::vector<recording::Members> all;
   for (const auto& frame : frames)
@@ -116,16 +117,17 @@ TEST_CASE("a force step: rise time at most 318 ms, steady-state RMS error at mos
 }
 
 /// Checks that the arm holds its poses. Returns complaints if the recording lacks ticks of a pose.
-Complaints holds_poses() {
+Findings holds_poses() {
   const Folder folder;
   const auto file = record(folder, "arm", "launch/arm.xml", "--lockstep --for 45s");
   const Recorded joints(file, "joint_state");
-  // poses.csv: 1.5 s of motion, 1.5 s of rest per pose. The drift is measured over the last 0.5 s of rest.
+  // poses.csv: 1.5 s of motion, 1.5 s of rest per pose. The drift is measured over the last 0.5 s
+  // of rest.
   std::map<int, const recording::Members*> at_tick;
   for (const auto& state : joints.messages())
     if (text(state, "source") == "sim")
       at_tick[static_cast<int>(number(state, "sequence"))] = &state;
-  Complaints wrong;
+  Findings wrong;
   const auto elbow_rad = [&](double time_s) {
     const auto tick = static_cast<int>(std::lround(time_s * 500));
     const auto next = at_tick.upper_bound(tick);  // a busy machine may lose a tick

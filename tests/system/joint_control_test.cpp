@@ -1,5 +1,5 @@
-// Joint control in lockstep: the arm by computed force (Fig. 8 of the paper), the hinge rig by puller_follower
-// (Fig. 7a), and every joint controller over the CAN gateway.
+// Joint control in lockstep: the arm by computed force (Fig. 8 of the paper), the hinge rig by
+// puller_follower (Fig. 7a), and every joint controller over the CAN gateway.
 #include <fstream>
 
 #include "interfaces/robot/robot.hpp"
@@ -155,6 +155,6 @@ TEST_CASE("over the CAN gateway every joint controller stays within its error li
   CAPTURE(run.graph);
   Folder folder;
   const auto file = recorded(folder, "launch/" + run.graph + ".xml" + over_can(), run.for_s);
-  CHECK(error_complaints(run.graph + " over CAN", file, 0.5, run.allowed_deg) == Complaints{});
+  CHECK(error_findings(run.graph + " over CAN", file, 0.5, run.allowed_deg) == Findings{});
   CHECK(least_tension_N(file) > 0.5);
 }

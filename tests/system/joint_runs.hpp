@@ -54,10 +54,11 @@ inline JointRun joint_run() {
                   JointRun{"computed_force_estimated", 29, 1.5});
 }
 
-/// Prints the error of each joint. Returns a complaint for each joint with an RMS error of `allowed_deg` or more.
-inline Complaints error_complaints(const std::string& run, const std::string& recording,
-                                   double from_s, double allowed_deg) {
-  Complaints wrong;
+/// Prints the error of each joint. Returns a complaint for each joint with an RMS error of
+/// `allowed_deg` or more.
+inline Findings error_findings(const std::string& run, const std::string& recording, double from_s,
+                               double allowed_deg) {
+  Findings wrong;
   for (const auto& e : errors(recording, "sim", "joint_target", from_s)) {
     std::ostringstream message;
     message << run << ": " << e.joint << " " << e.rms_rad / degree << "° RMS, "

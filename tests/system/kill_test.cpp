@@ -1,5 +1,5 @@
-// A component is killed during a run: its actuators enter the safe state in time, the graph resumes, and no process
-// remains.
+// A component is killed during a run: its actuators enter the safe state in time, the graph
+// resumes, and no process remains.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <iostream>
@@ -48,7 +48,8 @@ Killed run_and_kill(const std::string& program, const std::string& folder,
   return killed;
 }
 
-/// Time in ms from `from_ns` to the first later ecu_frame in which `is_safe` holds for every channel.
+/// Time in ms from `from_ns` to the first later ecu_frame in which `is_safe` holds for every
+/// channel.
 template <class IsSafe>
 std::optional<double> safe_after_ms(const Recorded& frames, std::int64_t from_ns, IsSafe is_safe) {
   for (const auto& frame : frames.messages()) {
@@ -76,7 +77,7 @@ void check_resumed(const std::string& file) {
 }
 
 /// Prints a reaction time. Returns a complaint if it exceeds the limit plus the scheduling delay.
-Complaints in_time(const std::string& what, std::optional<double> after_ms, double limit_ms) {
+Findings in_time(const std::string& what, std::optional<double> after_ms, double limit_ms) {
   const std::string message =
       what + (after_ms ? " after " + std::to_string(*after_ms) + " ms" : ": never");
   std::cout << message << std::endl;
@@ -107,7 +108,8 @@ void safe_in_time(const std::string& program, const std::string& what, double li
 }  // namespace
 
 TEST_CASE("after a controller is killed, its actuators execute their safe action within 22 ms") {
-  // The safe action of hinge_rig is force mode at relax_tension_N, 2 N. The controller commands 5 N and more.
+  // The safe action of hinge_rig is force mode at relax_tension_N, 2 N. The controller commands 5 N
+  // and more.
   safe_in_time(
       "force_control", "controller killed: safe action", 22, [](const recording::Members& c) {
         return number(c, "request") == int{ECU_REQUEST_FORCE} && number(c, "setpoint") == 2000;

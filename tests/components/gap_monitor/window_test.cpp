@@ -32,25 +32,26 @@ erp::SensorFrame frame_of(const recording::Table& table, const erp::Robot& robot
   return frame;
 }
 
-/// The stages that are open after a run of the rig with such effects.
-std::vector<std::string> open_after(const std::vector<erp::Effect>& effects) {
+/// The stages with an open gap after a run of the rig with the given effects.
+std::vector<std::string> open_stages(const std::vector<erp::Effect>& effects) {
   erp::Robot real = hinge_rig();
   real.effects = effects;
   const auto table = rig_recording::table_of_run(real, {.seconds = 5});
   gap_monitor::Window window(hinge_rig(), 4);
-  std::string why;
+  std::string reason;
+  constexpr std::size_t window_rows = 2000;  // 4 s
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    CHECK((row > 1999 || window.evaluate(why).empty()));
+    CHECK((row >= window_rows || window.evaluate(reason).empty()));
     window.receive(frame_of(table, real, row));
   }
-  std::vector<std::string> open;
-  const auto gaps = window.evaluate(why);
-  CHECK(why.empty());
+  std::vector<std::string> open_gaps;
+  const auto gaps = window.evaluate(reason);
+  CHECK(reason.empty());
   CHECK_FALSE(gaps.empty());
   for (const auto& gap : gaps)
-    if (gap.open) open.push_back(std::string(sim::effects::word(gap.stage)) + " " + gap.on);
-  std::ranges::sort(open);
-  return open;
+    if (gap.open) open_gaps.push_back(std::string(sim::effects::word(gap.stage)) + " " + gap.on);
+  std::ranges::sort(open_gaps);
+  return open_gaps;
 }
 
 }  // namespace
@@ -58,8 +59,8 @@ std::vector<std::string> open_after(const std::vector<erp::Effect>& effects) {
 TEST_CASE(
     "no stage is open for a robot as modelled; friction in a gearbox opens the stage of that "
     "gearbox") {
-  CHECK(open_after({}).empty());
-  CHECK(open_after({{{}, "gearbox_coulomb", "extensor", {{{}, "extra_Nm", "0.03"}}}}) ==
+  CHECK(open_stages({}).empty());
+  CHECK(open_stages({{{}, "gearbox_coulomb", "extensor", {{{}, "extra_Nm", "0.03"}}}}) ==
         std::vector<std::string>{"gearbox extensor"});
 }
 

@@ -1,4 +1,5 @@
-// Configs of components: reader and XSD agree, every parameter has a meaning. One line per component.
+// Configs of components: reader and XSD agree, every parameter has a meaning. One line per
+// component.
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <functional>
@@ -28,7 +29,7 @@
 #include "sim/learning/muscle_networks/learned_lengths.hpp"
 #include "sim/learning/sensorimotor/learned_map_file.hpp"
 #include "sim/learning/synergy/task.hpp"
-#include "tests/interfaces/xml/without_meaning.hpp"
+#include "tests/interfaces/xml/without_description.hpp"
 #include "tests/interfaces/xml/xmllint.hpp"
 
 namespace fs = std::filesystem;
@@ -38,7 +39,7 @@ namespace {
 struct Kind {
   std::function<std::string(const std::string& root)> schema;
   std::function<void(const std::string& file, const std::string& root)> read;
-  std::function<std::vector<std::string>(const std::string& root)> without_meaning;
+  std::function<std::vector<std::string>(const std::string& root)> without_description;
 };
 
 template <class Params>
@@ -48,7 +49,7 @@ Kind kind_of() {
             Params params;
             xml::read_into(params, file, root);
           },
-          [](const std::string& root) { return without_meaning<Params>(root); }};
+          [](const std::string& root) { return without_description<Params>(root); }};
 }
 
 const std::map<std::string, Kind> kinds{
@@ -100,7 +101,7 @@ Configs configs_by_root() {
 TEST_CASE(
     "every parameter of every component, and of every file that a config names, has a meaning") {
   for (const auto& [root, kind] : kinds)
-    CHECK(kind.without_meaning(root) == std::vector<std::string>{});
+    CHECK(kind.without_description(root) == std::vector<std::string>{});
 }
 
 TEST_CASE("the list above has every component that is installed") {

@@ -6,14 +6,14 @@
 
 #include "interfaces/graph/graph.hpp"
 #include "interfaces/robot/robot.hpp"
-#include "tests/interfaces/xml/without_meaning.hpp"
+#include "tests/interfaces/xml/without_description.hpp"
 
 TEST_CASE("every element and attribute of robot.xml has a meaning") {
-  CHECK(without_meaning<erp::Robot>("robot") == std::vector<std::string>{});
+  CHECK(without_description<erp::Robot>("robot") == std::vector<std::string>{});
 }
 
 TEST_CASE("every element and attribute of a graph has a meaning") {
-  CHECK(without_meaning<erp::Graph>("graph") == std::vector<std::string>{});
+  CHECK(without_description<erp::Graph>("graph") == std::vector<std::string>{});
 }
 
 namespace {
