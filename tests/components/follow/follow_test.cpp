@@ -35,7 +35,7 @@ erp::ActuatorReference only_reference(const std::optional<erp::ActuatorCommand>&
 
 }  // namespace
 
-TEST_CASE("with where=\\" ecu\\" a target is passed on unchanged") {
+TEST_CASE("with where=\"ecu\" a target is passed on unchanged") {
   ForceControl control({}, rig());
   const auto sent =
       only_reference(control.step(frame_with(0, 5), 0.002, target_of(erp::Mode::force, 20)));
