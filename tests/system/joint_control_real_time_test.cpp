@@ -47,10 +47,10 @@ TEST_CASE("after the plant is killed and restarted, the joint errors return belo
     kill(plant, SIGKILL);
     std::this_thread::sleep_for(9s);
     CHECK(graph.stop() == 0);
-    Findings wrong = error_findings(run.graph + ", plant killed", recording_in(folder / "run"), 9,
-                                    run.allowed_deg + 0.5);
-    if (!wrong.empty()) wrong.push_back(graph.output());
-    return wrong;
+    Findings findings = error_findings(run.graph + ", plant killed", recording_in(folder / "run"),
+                                       9, run.allowed_deg + 0.5);
+    if (!findings.empty()) findings.push_back(graph.output());
+    return findings;
   });
 }
 
