@@ -1,5 +1,5 @@
-// Target: arbitrary frames from the bus and arbitrary messages from the plant, as input of the
-// gateway of hal/can.
+// Target: arbitrary frames from the bus and arbitrary messages from the plant, as input
+// of the gateway of hal/can.
 #include "hal/can/gateway.hpp"
 
 #include "tests/fuzz/frames.hpp"
@@ -38,10 +38,11 @@ class Bus {
 
  private:
   void receive(const erp::CanFrame& frame) {
-    const auto before = gateway_.frame().sequence;
-    const erp::FrameResult heard = gateway_.receive(frame);
-    fuzz::require((heard == erp::FrameResult::tick) == (gateway_.frame().sequence != before),
-                  "a new frame is reported");
+    const auto sequence_before = gateway_.frame().sequence;
+    const erp::FrameResult result = gateway_.receive(frame);
+    fuzz::require(
+        (result == erp::FrameResult::tick) == (gateway_.frame().sequence != sequence_before),
+        "a completed tick is reported, and nothing else is");
   }
 
   void command(fuzz::Input& in) {
