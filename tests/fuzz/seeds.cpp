@@ -1,4 +1,5 @@
-// Writes the binary seeds: messages of ECUs, hosts and the logger, in the input format of each target.
+// Writes the binary seeds: messages of ECUs, hosts and the logger, in the input format of each
+// target.
 //   fuzz_seeds CORPUS_DIRECTORY
 #include <cstdio>
 
