@@ -152,7 +152,7 @@ int main(int argc, char** argv) {
     std::fclose(file);
   }
   const auto graph_latency = measure_graph(graph, seconds, folder);
-  setenv("CYCLONEDDS_URI", ("file://" + loopback).c_str(), 1);
+  setenv("CYCLONEDDS_URI", ("file://" + loopback_file).c_str(), 1);
   const auto round_trip = measure_ddsperf(seconds, 256, folder);
   std::printf("{\n");
   print("sensor_frame_to_command", graph_latency.three_hops);
