@@ -160,11 +160,11 @@ erp::ActuatorCommand Experience::command(const MuscleCommand& desired) const {
 
 void Experience::save_base() const {
   if (params_.save.empty()) return;
-  BaseFile all = file_;
-  all.experiences.all = rows_of(base_);
+  BaseFile checkpoint = file_;
+  checkpoint.experiences.all = rows_of(base_);
   node::write_or_report(node_, xml::resolved(params_.save, params_.place.file),
                         [&](const std::string& file) {
-                          sim::training_loop::write_checkpoint(file, xml::write(all));
+                          sim::training_loop::write_checkpoint(file, xml::write(checkpoint));
                         });
 }
 

@@ -82,9 +82,9 @@ void GapMonitor::publish(const std::vector<sim::diagnosis::StageGap>& gaps) {
 
 void GapMonitor::report(const sim::diagnosis::StageGap& gap) {
   StageState& state = states_[stage_name(gap)];
-  state.open = gap.open ? state.open + 1 : 0;
-  state.closed = gap.judged && !gap.open ? state.closed + 1 : 0;
-  if (!state.reported && state.open >= params_.consecutive) {
+  state.open_count = gap.open ? state.open_count + 1 : 0;
+  state.closed_count = gap.judged && !gap.open ? state.closed_count + 1 : 0;
+  if (!state.reported && state.open_count >= params_.consecutive) {
     state.reported = true;
     node_.report(
         erp::Severity::warning, gap.on, "gap_open",
@@ -93,7 +93,7 @@ void GapMonitor::report(const sim::diagnosis::StageGap& gap) {
             "`erp gap diagnose` on a recording",
             stage_name(gap), gap.rms, gap.unit, gap.floor, gap.unit));
   }
-  if (state.reported && state.closed >= params_.consecutive) {
+  if (state.reported && state.closed_count >= params_.consecutive) {
     state.reported = false;
     node_.report(erp::Severity::info, gap.on, "gap_closed",
                  stage_name(gap) + ": the residual is at its noise floor again");

@@ -31,8 +31,8 @@ class GapMonitor {
 
  private:
   struct StageState {
-    int open = 0, closed = 0;  ///< consecutive evaluations
-    bool reported = false;     ///< the gap was reported as open
+    int open_count = 0, closed_count = 0;  ///< consecutive evaluations with and without a gap
+    bool reported = false;                 ///< the gap was reported as open
   };
   /// Reports missing sensor frames, once per silence.
   void report_silence();

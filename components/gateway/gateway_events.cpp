@@ -23,10 +23,10 @@ const char* reset_text(std::uint8_t cause) {
 std::string ecu_name(int ecu) { return "ecu " + std::to_string(ecu); }
 
 /// "channel 1", or "analog input 0, 2".
-std::string list_text(const std::string& what, unsigned bits) {
+std::string list_text(const std::string& noun, unsigned bits) {
   std::string text;
   for (int k = 0; bits >> k; ++k)
-    if (bits >> k & 1u) text += (text.empty() ? what + " " : ", ") + std::to_string(k);
+    if (bits >> k & 1u) text += (text.empty() ? noun + " " : ", ") + std::to_string(k);
   return text;
 }
 
@@ -101,11 +101,11 @@ void GatewayNode::report_unanswered() {
 void GatewayNode::report_counters() {
   const auto now = gateway_.counters();
   const auto report = [&](std::uint64_t count, std::uint64_t before, const std::string& subject,
-                          const char* what) {
+                          const char* problem) {
     if (count > before)
-      node_.report(erp::Severity::warning, subject, what,
-                   std::to_string(count - before) + " " + what + " more, " + std::to_string(count) +
-                       " in total");
+      node_.report(erp::Severity::warning, subject, problem,
+                   std::to_string(count - before) + " " + problem + " more, " +
+                       std::to_string(count) + " in total");
   };
   report(now.corrupt, reported_counters_.corrupt, "bus", "corrupt_frames");
   report(now.lost, reported_counters_.lost, "bus", "lost_frames");
@@ -138,8 +138,8 @@ void GatewayNode::show_bus(std::size_t k, double elapsed_s) {
   erp::BusKeeper& bus = buses_[k];
   const erp::BusCounters now = bus.counters();
   const std::uint64_t frames = now.sent + now.received;
-  const auto show = [&](const char* what, double value) {
-    node_.show(bus.name() + "." + what, value);
+  const auto show = [&](const char* counter, double value) {
+    node_.show(bus.name() + "." + counter, value);
   };
   show("sent", static_cast<double>(now.sent));
   show("received", static_cast<double>(now.received));

@@ -7,7 +7,7 @@ namespace images {
 
 /// A bright spot of an image.
 struct Spot {
-  sim::cameras::Pixel at;  ///< centre of brightness
+  sim::cameras::Pixel centre;  ///< centre of brightness
   double area_px = 0;
   bool at_edge = false;  ///< the spot touches the image's edge and may be cut off
 };

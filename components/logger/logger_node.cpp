@@ -28,13 +28,14 @@ std::string content(const std::string& file) {
 }
 
 std::vector<recording::Attachment> attachments(const std::string& files) {
-  std::vector<recording::Attachment> all;
-  all.push_back({.name = "git_revision.txt", .media_type = "text/plain", .data = ERP_REVISION});
+  std::vector<recording::Attachment> attachments;
+  attachments.push_back(
+      {.name = "git_revision.txt", .media_type = "text/plain", .data = ERP_REVISION});
   std::stringstream list(files);
   for (std::string file; std::getline(list, file, ':');)
     if (!file.empty())
-      all.push_back({.name = file, .media_type = "application/xml", .data = content(file)});
-  return all;
+      attachments.push_back({.name = file, .media_type = "application/xml", .data = content(file)});
+  return attachments;
 }
 
 /// Renames an existing recording to the next free name: run.mcap becomes run.1.mcap.

@@ -71,15 +71,18 @@ bool Capture::search(std::span<const StereoPoint> points) {
                     joints);
 }
 
-bool Capture::fit_joints(const MarkerPoints& seen, std::vector<JointReading> joints) {
+bool Capture::fit_joints(const MarkerPoints& measured, std::vector<JointReading> joints) {
   const auto count =
-      std::ranges::count_if(seen, [](const auto& point) { return point.has_value(); });
+      std::ranges::count_if(measured, [](const auto& point) { return point.has_value(); });
   if (static_cast<std::size_t>(count) < options_.min_markers) return false;
-  const double residual_m = fit_.fit(seen, joints);
+  const double residual_m = fit_.fit(measured, joints);
   if (!(residual_m < options_.lost_m)) return false;
-  captured_ = {
-      std::move(joints), {}, fit_.variance_rad2(), bodies(seen), static_cast<std::size_t>(count),
-      residual_m};
+  captured_ = {std::move(joints),
+               {},
+               fit_.variance_rad2(),
+               bodies(measured),
+               static_cast<std::size_t>(count),
+               residual_m};
   for (std::size_t j = 0; j < captured_.joints.size(); ++j) {
     const int first = fit_.model().first_of(static_cast<int>(j));
     const int dof = first < 0 ? 0 : sim::coordinates_of(captured_.joints[j].type);
@@ -104,13 +107,13 @@ void Capture::update_velocities(const std::vector<bool>& known_before, double dt
   }
 }
 
-std::vector<std::optional<BodyPose>> Capture::bodies(const MarkerPoints& seen) const {
+std::vector<std::optional<BodyPose>> Capture::bodies(const MarkerPoints& measured) const {
   std::vector<std::optional<BodyPose>> poses(fit_.tree().bodies.size());
   for (std::size_t b = 0; b < poses.size(); ++b) {
     std::vector<Vec3> body_markers_m, measured_m;
-    for (std::size_t k = 0; k < seen.size(); ++k)
-      if (seen[k] && fit_.markers()[k].body == b)
-        body_markers_m.push_back(fit_.markers()[k].at_m), measured_m.push_back(*seen[k]);
+    for (std::size_t k = 0; k < measured.size(); ++k)
+      if (measured[k] && fit_.markers()[k].body == b)
+        body_markers_m.push_back(fit_.markers()[k].at_m), measured_m.push_back(*measured[k]);
     if (body_markers_m.size() >= min_markers_of_pose)
       poses[b] = rigid_pose(body_markers_m, measured_m);
   }

@@ -51,9 +51,9 @@ class Capture {
   bool track(std::span<const StereoPoint> points);
   bool search(std::span<const StereoPoint> points);
   bool all_known() const;
-  bool fit_joints(const MarkerPoints& seen, std::vector<sim::JointReading> joints);
+  bool fit_joints(const MarkerPoints& measured, std::vector<sim::JointReading> joints);
   void update_velocities(const std::vector<bool>& known_before, double dt_s);
-  std::vector<std::optional<sim::BodyPose>> bodies(const MarkerPoints& seen) const;
+  std::vector<std::optional<sim::BodyPose>> bodies(const MarkerPoints& measured) const;
 
   std::array<sim::cameras::Camera, 2> cameras_;
   CaptureOptions options_;

@@ -27,12 +27,12 @@ std::span<const BodyPose> JointFit::poses(std::span<const JointReading> joints) 
   return model_.poses();
 }
 
-double JointFit::fit(const MarkerPoints& seen, std::vector<JointReading>& joints) {
+double JointFit::fit(const MarkerPoints& measured, std::vector<JointReading>& joints) {
   constexpr int max_steps = 8;            // chosen
   constexpr double convergence_m = 1e-8;  // chosen
-  double residual_m = step(seen, joints);
+  double residual_m = step(measured, joints);
   for (int k = 1; k < max_steps; ++k) {
-    const double new_residual_m = step(seen, joints);
+    const double new_residual_m = step(measured, joints);
     const bool converged = std::abs(residual_m - new_residual_m) < convergence_m;
     residual_m = new_residual_m;
     if (converged) break;
@@ -40,7 +40,7 @@ double JointFit::fit(const MarkerPoints& seen, std::vector<JointReading>& joints
   return residual_m;
 }
 
-double JointFit::step(const MarkerPoints& seen, std::vector<JointReading>& joints) {
+double JointFit::step(const MarkerPoints& measured, std::vector<JointReading>& joints) {
   model_.place(joints);
   const int n = model_.coordinates();
   const double weight = 1 / (options_.noise_m * options_.noise_m);
@@ -50,14 +50,16 @@ double JointFit::step(const MarkerPoints& seen, std::vector<JointReading>& joint
   double square_sum_m2 = 0;
   int count = 0;
   for (std::size_t k = 0; k < markers_.size(); ++k) {
-    if (!seen[k]) continue;
+    if (!measured[k]) continue;
     const BodyPose& body = model_.poses()[markers_[k].body];
-    const Vec3 at = body.position_m + body.rotation * markers_[k].at_m, residual = *seen[k] - at;
+    const Vec3 predicted_m = body.position_m + body.rotation * markers_[k].at_m,
+               residual = *measured[k] - predicted_m;
     const auto coordinates = model_.movers(static_cast<int>(markers_[k].body));
     Eigen::Matrix3Xd jacobian(3, coordinates.size());
     for (std::size_t d = 0; d < coordinates.size(); ++d) {
       const sim::Vec6 axis = model_.axis(coordinates[d]);
-      jacobian.col(static_cast<Eigen::Index>(d)) = axis.head<3>().cross(at) + axis.tail<3>();
+      jacobian.col(static_cast<Eigen::Index>(d)) =
+          axis.head<3>().cross(predicted_m) + axis.tail<3>();
     }
     for (std::size_t d = 0; d < coordinates.size(); ++d) {
       gradient[coordinates[d]] += weight * jacobian.col(static_cast<Eigen::Index>(d)).dot(residual);

@@ -21,7 +21,7 @@ class JointFit {
 
   /// Fits the joints to the markers, starting at their last or predicted positions. Returns the RMS
   /// residual, in m.
-  double fit(const MarkerPoints& seen, std::vector<sim::JointReading>& joints);
+  double fit(const MarkerPoints& measured, std::vector<sim::JointReading>& joints);
   /// Computes joints from bodies with known poses; other joints are unchanged. The poses of bodies
   /// that are fixed to the world are known.
   void from_bodies(const std::vector<std::optional<sim::BodyPose>>& bodies,
@@ -35,7 +35,7 @@ class JointFit {
   const sim::RobotTree& tree() const { return tree_; }
 
  private:
-  double step(const MarkerPoints& seen, std::vector<sim::JointReading>& joints);
+  double step(const MarkerPoints& measured, std::vector<sim::JointReading>& joints);
 
   sim::RobotTree tree_;
   std::vector<Marker> markers_;

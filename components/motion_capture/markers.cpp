@@ -26,21 +26,21 @@ MarkerPoints assign_nearest(std::span<const Marker> markers, std::span<const Bod
   std::vector<Pair> pairs;
   for (std::size_t m = 0; m < markers.size(); ++m) {
     const BodyPose& body = expected[markers[m].body];
-    const Vec3 at = body.position_m + body.rotation * markers[m].at_m;
+    const Vec3 predicted_m = body.position_m + body.rotation * markers[m].at_m;
     for (std::size_t p = 0; p < points.size(); ++p)
-      if (const double distance_m = (points[p].at_m - at).norm(); distance_m < gate_m)
+      if (const double distance_m = (points[p].at_m - predicted_m).norm(); distance_m < gate_m)
         pairs.push_back({distance_m, m, p});
   }
   std::ranges::sort(pairs, {}, &Pair::distance_m);
-  MarkerPoints seen(markers.size());
+  MarkerPoints measured(markers.size());
   std::set<std::size_t> left, right;  // spots already assigned
   for (const Pair& pair : pairs) {
     const StereoPoint& point = points[pair.point];
-    if (seen[pair.marker] || left.contains(point.left) || right.contains(point.right)) continue;
-    seen[pair.marker] = point.at_m;
+    if (measured[pair.marker] || left.contains(point.left) || right.contains(point.right)) continue;
+    measured[pair.marker] = point.at_m;
     left.insert(point.left), right.insert(point.right);
   }
-  return seen;
+  return measured;
 }
 
 BodyPose rigid_pose(std::span<const Vec3> in_body_m, std::span<const Vec3> seen_m) {

@@ -11,7 +11,7 @@ using sim::Vec3;
 
 std::vector<Vec3> rays(const sim::cameras::Camera& camera, std::span<const Spot> spots) {
   std::vector<Vec3> directions;
-  for (const Spot& spot : spots) directions.push_back(camera.ray(spot.at));
+  for (const Spot& spot : spots) directions.push_back(camera.ray(spot.centre));
   return directions;
 }
 

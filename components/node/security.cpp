@@ -27,9 +27,9 @@ using Bio = std::unique_ptr<BIO, decltype(&BIO_free)>;
 constexpr auto remake_folder =
     "write a new folder with erp security make, for all of this robot's machines";
 
-[[noreturn]] void refuse(const fs::path& place, const std::string& what,
+[[noreturn]] void refuse(const fs::path& place, const std::string& problem,
                          const std::string& remedy) {
-  throw std::invalid_argument(place.string() + ": " + what + "; " + remedy);
+  throw std::invalid_argument(place.string() + ": " + problem + "; " + remedy);
 }
 
 void check_files(const fs::path& folder) {

@@ -62,8 +62,8 @@ unsigned ecu_board_period(ecu_board* board, const board_period* period, int16_t*
 
 /* In lockstep: true while the host has not answered the last period; true while there are no new
  * readings. */
-bool ecu_board_awaits_host(const ecu_board* board, const board_readings* last);
-bool ecu_board_awaits_robot(const ecu_board* board, const board_readings* last);
+bool ecu_board_awaits_host(const ecu_board* board, const board_readings* last_readings);
+bool ecu_board_awaits_robot(const ecu_board* board, const board_readings* last_readings);
 
 /* Packs all frames of the last period again, for the case that its answer was lost. Returns the
  * number of frames. */

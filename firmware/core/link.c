@@ -19,8 +19,8 @@ static void trip_both(ecu_link* link, ecu_fault fault) {
     if (link->channel[k]) ecu_trip(link->channel[k], fault);
 }
 
-void ecu_link_bus(ecu_link* link, bool off) {
-  if (off) trip_both(link, ECU_FAULT_BUS_OFF);
+void ecu_link_bus(ecu_link* link, bool bus_off) {
+  if (bus_off) trip_both(link, ECU_FAULT_BUS_OFF);
 }
 
 static bool receive_corrupt(ecu_link* link) {
@@ -67,15 +67,15 @@ static uint8_t position_after(uint8_t position) {
 /* Position 0 begins a set; the same position again is a repeated frame; a gap invalidates the
  * set. */
 static bool receive_parameter(ecu_link* link, const frame_parameter* content) {
-  const uint8_t k = content->channel, last = link->last_position[k];
+  const uint8_t k = content->channel, last_position = link->last_position[k];
   ecu_channel* channel = link->channel[k];
   if (!channel) return false;
-  if (content->position != 0 && content->position == last) {
+  if (content->position != 0 && content->position == last_position) {
     ++link->repeated;
     return false;
   }
   if (content->position == 0) ecu_discard_parameters(channel);
-  else if (!link->set_open[k] || content->position != position_after(last))
+  else if (!link->set_open[k] || content->position != position_after(last_position))
     ecu_invalidate_staged(channel);
   link->last_position[k] = content->position;
   link->set_open[k] = !content->commit;
@@ -186,13 +186,13 @@ static unsigned pack_new_faults(ecu_link* link, const ecu_report* report, bus_fr
 }
 
 /* One page every 50 ms, in rotation, or all pages. */
-static unsigned pack_healths(ecu_link* link, const ecu_report* report, bool all,
+static unsigned pack_healths(ecu_link* link, const ecu_report* report, bool all_pages,
                              bus_frame* frames) {
   unsigned count = 0;
   const bool due = (link->tick + link->ecu) % ECU_HEALTH_TICKS == 0;
   for (uint8_t k = 0; k < 2; ++k)
     for (uint8_t page = 0; page < 2; ++page)
-      if (link->channel[k] && (all || (due && link->next_health_page == 2 * page + k)))
+      if (link->channel[k] && (all_pages || (due && link->next_health_page == 2 * page + k)))
         pack_health(link, k, page, &report->channel[k], &frames[count++]);
   if (due) link->next_health_page = (link->next_health_page + 1) & 3;
   return count;
@@ -200,11 +200,11 @@ static unsigned pack_healths(ecu_link* link, const ecu_report* report, bool all,
 
 unsigned ecu_link_pack(ecu_link* link, const ecu_report* report, bool all_pages,
                        bus_frame* frames) {
-  const bool all = all_pages || link->hello_requested;
+  const bool send_all = all_pages || link->hello_requested;
   link->hello_requested = false;
   unsigned count = pack_new_faults(link, report, frames);
-  if (all) pack_hello(link, &frames[count++]);
-  count += pack_healths(link, report, all, frames + count);
+  if (send_all) pack_hello(link, &frames[count++]);
+  count += pack_healths(link, report, send_all, frames + count);
   for (uint8_t page = 0; page < 2; ++page)
     if (link->analog_inputs >> 2 * page & 3)
       pack_analog(link, page, report->analog_counts, &frames[count++]);

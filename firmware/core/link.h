@@ -76,9 +76,9 @@ unsigned ecu_link_pack(ecu_link* link, const ecu_report* report, bool all_pages,
 /* Packs the frame to send after a reset. */
 void ecu_link_pack_boot(ecu_link* link, frame_reset_cause cause, bus_frame* frame);
 
-/* To be called once per period. `off`: the CAN controller is in bus-off; both channels then
+/* To be called once per period. `bus_off`: the CAN controller is in bus-off; both channels then
  * trip. */
-void ecu_link_bus(ecu_link* link, bool off);
+void ecu_link_bus(ecu_link* link, bool bus_off);
 
 #ifdef __cplusplus
 }

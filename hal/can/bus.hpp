@@ -32,8 +32,8 @@ struct BusCounters {
 class FrameSink {
  public:
   virtual ~FrameSink() = default;
-  /// `stamp_ns` since 1970; `own`: sent by this process.
-  virtual void frame(const CanFrame& frame, std::int64_t stamp_ns, bool own) = 0;
+  /// `stamp_ns` since 1970; `is_own`: sent by this process.
+  virtual void frame(const CanFrame& frame, std::int64_t stamp_ns, bool is_own) = 0;
 };
 
 /// One CAN bus. All processes that open the same bus share it. Own frames are not received.

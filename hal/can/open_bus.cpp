@@ -23,18 +23,20 @@ int port_of(const std::string& text) {
 std::unique_ptr<CanBus> open_by_name(const std::string& specification, const BusOptions& options) {
   const auto colon = specification.find(':');
   const std::string backend = specification.substr(0, colon);
-  const std::string rest = colon == std::string::npos ? "" : specification.substr(colon + 1);
+  const std::string parameters = colon == std::string::npos ? "" : specification.substr(colon + 1);
   if (backend == "socketcan") {
-    if (rest.empty()) throw std::invalid_argument(std::string("names no interface; ") + usage);
-    return can::open_socketcan(rest, options);
+    if (parameters.empty())
+      throw std::invalid_argument(std::string("names no interface; ") + usage);
+    return can::open_socketcan(parameters, options);
   }
   if (backend == "udp") {
-    const auto last = rest.rfind(':');
-    if (last == std::string::npos)
+    const auto last_colon = parameters.rfind(':');
+    if (last_colon == std::string::npos)
       throw std::invalid_argument(std::string("names no group and port; ") + usage);
-    return can::open_udp(rest.substr(0, last), port_of(rest.substr(last + 1)));
+    return can::open_udp(parameters.substr(0, last_colon),
+                         port_of(parameters.substr(last_colon + 1)));
   }
-  if (backend == "trace") return can::open_trace(rest);
+  if (backend == "trace") return can::open_trace(parameters);
   throw std::invalid_argument("unknown back end \"" + backend + "\"; " + usage);
 }
 

@@ -16,8 +16,8 @@ constexpr std::string_view kernel_bus = "socketcan:", trace = "trace:";
 
 /// `text` with its last number increased by `add`.
 std::string with_increased_number(const std::string& text, std::size_t add) {
-  const auto last = text.find_last_of("0123456789");
-  if (last == std::string::npos || last + 1 != text.size())
+  const auto last_digit = text.find_last_of("0123456789");
+  if (last_digit == std::string::npos || last_digit + 1 != text.size())
     throw std::invalid_argument("bus \"" + text +
                                 "\" does not end in a number that can increase from bus to bus; "
                                 "give one specification per bus, separated by spaces");

@@ -29,7 +29,7 @@ class TraceWriter : public FrameSink {
  public:
   /// Throws std::runtime_error when the file cannot be written.
   TraceWriter(const std::string& file, std::string interface);
-  void frame(const CanFrame& frame, std::int64_t stamp_ns, bool own) override;
+  void frame(const CanFrame& frame, std::int64_t stamp_ns, bool is_own) override;
   /// Frames that could not be written, for example because the disk is full.
   std::uint64_t lost() const { return lost_; }
 

@@ -17,8 +17,8 @@ constexpr std::size_t frames_per_datagram = 64, header_bytes = 4, frame_bytes = 
 constexpr std::size_t datagram_bytes = header_bytes + frames_per_datagram * frame_bytes;
 constexpr char magic[header_bytes + 1] = "erpc";
 
-[[noreturn]] void fail(const std::string& what) {
-  throw std::runtime_error(what + ": " + std::strerror(errno));
+[[noreturn]] void fail(const std::string& action) {
+  throw std::runtime_error(action + ": " + std::strerror(errno));
 }
 
 Descriptor udp_socket() {
@@ -28,8 +28,8 @@ Descriptor udp_socket() {
 }
 
 template <class Value>
-void set(const Descriptor& socket, int level, int option, const Value& value, const char* what) {
-  if (::setsockopt(socket.get(), level, option, &value, sizeof value) != 0) fail(what);
+void set(const Descriptor& socket, int level, int option, const Value& value, const char* action) {
+  if (::setsockopt(socket.get(), level, option, &value, sizeof value) != 0) fail(action);
 }
 
 sockaddr_in address(in_addr host, int port) {

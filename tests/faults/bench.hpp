@@ -24,10 +24,10 @@ inline void write_rig(const tests::Folder& folder, double amplitude_m = 0) {
   const auto put = [&](const std::string& position, const std::string& text) {
     robot.insert(robot.find(position), text);
   };
-  const auto change = [&](const std::string& from, const std::string& to) {
-    robot.replace(robot.find(from), from.size(), to);
+  const auto replace = [&](const std::string& old_text, const std::string& new_text) {
+    robot.replace(robot.find(old_text), old_text.size(), new_text);
   };
-  change("tension_noise_N=\"0.05\"", "tension_noise_N=\"0.1\" tension_zero_counts=\"200\"");
+  replace("tension_noise_N=\"0.05\"", "tension_noise_N=\"0.1\" tension_zero_counts=\"200\"");
   for (const auto& [actuator, input] : {std::pair{"flexor", "1"}, {"extensor", "2"}})
     put("</robot>", std::string("<potentiometer actuator=\"") + actuator + "\" ecu=\"0\" input=\"" +
                         input + "\" bits=\"12\" range_rad=\"20\" start_rad=\"10\"/>\n");
@@ -198,14 +198,14 @@ class Bench {
   /// True if every channel has been running for 300 ms and has sent at the beginning and end of
   /// that time.
   bool all_run() {
-    const auto to = node::wall_ns(), from = to - 300 * ms;
+    const auto end_ns = node::wall_ns(), begin_ns = end_ns - 300 * ms;
     std::map<std::uint16_t, bool> ran_at_start, ran_at_end;
-    for (const auto& received : bus_recorder_->since(from)) {
+    for (const auto& received : bus_recorder_->since(begin_ns)) {
       frame_status message;
       if (!frame_unpack_status(&received.frame, &message)) continue;
       if (message.state != ECU_STATE_RUNNING) return false;
-      ran_at_start[received.frame.id] |= received.at_ns < from + 50 * ms;
-      ran_at_end[received.frame.id] = received.at_ns > to - 50 * ms;
+      ran_at_start[received.frame.id] |= received.at_ns < begin_ns + 50 * ms;
+      ran_at_end[received.frame.id] = received.at_ns > end_ns - 50 * ms;
     }
     const auto is_true = [](const auto& channel) { return channel.second; };
     return ran_at_start.size() == robot_.actuators.size() &&

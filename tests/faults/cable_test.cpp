@@ -43,13 +43,13 @@ struct CableResult {
 CableResult track(Bench& bench, BadCable& cable, const Impairment& impairment) {
   bench.settle();
   const int carried = cable.carried(), lost = cable.lost(), doubled = cable.doubled();
-  const auto from = node::wall_ns();
+  const auto start_ns = node::wall_ns();
   cable.impair(impairment);
   CableResult result;
   result.error_mm = tracking_error_mm(bench, std::chrono::seconds(injections() / 3 + 3));
   result.stall_ms = cable.stall_ms();
   cable.impair({});
-  for (const auto& message : bench.events().since(from))
+  for (const auto& message : bench.events().since(start_ns))
     result.trips += message.code == "ecu_fault";
   result.frames = cable.carried() - carried;
   result.lost = cable.lost() - lost;
@@ -66,12 +66,12 @@ bool is_within_limits(const CableResult& result, double allowed_mm) {
 /// reported.
 CableResult track_without_stall(Bench& bench, BadCable& cable, const Impairment& impairment,
                                 double allowed_mm) {
-  const auto from = node::wall_ns();
+  const auto start_ns = node::wall_ns();
   for (int attempt = 1;; ++attempt) {
     const CableResult result = track(bench, cable, impairment);
     if (is_within_limits(result, allowed_mm) || result.stall_ms < tolerated_stall_ms ||
         attempt == 3) {
-      if (impairment.lost > 0) CHECK(bench.events().first(from, "lost_frames") != 0);
+      if (impairment.lost > 0) CHECK(bench.events().first(start_ns, "lost_frames") != 0);
       return result;
     }
     std::printf("  (repeated: this machine stalled for %.0f ms)\n", result.stall_ms);
@@ -88,7 +88,7 @@ TEST_CASE(
   BadCable cable(Bench::far_bus(), Bench::bus());
   Bench bench(folder / "robot.xml", folder / "graph.xml", {}, Bench::far_bus());
   struct Case {
-    const char* what;
+    const char* description;
     Impairment impairment;
   };
   const Case cases[] = {{"clean", {}},
@@ -99,16 +99,16 @@ TEST_CASE(
   double allowed_mm = INFINITY;  // three times the error on a clean cable
   std::printf(
       "| on a 1 Mbit/s bus | frames | lost | duplicated | tracking error, mm RMS | trips |\n");
-  for (const auto& [what, impairment] : cases) {
+  for (const auto& [description, impairment] : cases) {
     const CableResult result = track_without_stall(bench, cable, impairment, allowed_mm);
-    std::printf("| %-24s | %5d | %4d | %4d | %.3f | %d |\n", what, result.frames, result.lost,
-                result.doubled, result.error_mm, result.trips);
+    std::printf("| %-24s | %5d | %4d | %4d | %.3f | %d |\n", description, result.frames,
+                result.lost, result.doubled, result.error_mm, result.trips);
     std::fflush(stdout);
-    INFO(what);
+    INFO(description);
     if (is_within_limits(result, allowed_mm) || result.stall_ms < tolerated_stall_ms) {
       CHECK(result.trips == 0);
       CHECK(result.error_mm < allowed_mm);
-    } else tests::not_evaluated(std::string("a cable, ") + what + ": trips and tracking");
+    } else tests::not_evaluated(std::string("a cable, ") + description + ": trips and tracking");
     CHECK((impairment.lost > 0) == (result.lost > 0));
     CHECK((impairment.doubled > 0) == (result.doubled > 0));
     if (allowed_mm == INFINITY) allowed_mm = 3 * result.error_mm;

@@ -46,9 +46,9 @@ TEST_CASE("set-points that are not a number or far out of range are refused with
   for (const double reference : {std::nan(""), double{INFINITY}, 1e6, -50.0})
     tests::in_real_time([&] {  // length_control commands again if the machine does not stall
       bench.settle();
-      const auto from = node::wall_ns();
+      const auto injected_ns = node::wall_ns();
       send_commands(bench, reference, 40);
-      return forces_since(bench, from);
+      return forces_since(bench, injected_ns);
     });
   CHECK(bench.events().first(1, "reference", "flexor") != 0);
 }
@@ -67,20 +67,20 @@ TEST_CASE("five consecutive corrupt commands trip, four do not; wrong lengths co
     }
     return frames;
   };
-  const auto tripped = [&](std::int64_t from) {
-    return bench.wait_for([&] { return bench.emergency(from, ECU_FAULT_CORRUPT); }, 100);
+  const auto tripped = [&](std::int64_t injected_ns) {
+    return bench.wait_for([&] { return bench.emergency(injected_ns, ECU_FAULT_CORRUPT); }, 100);
   };
   for (int k = 0; k < injections(); ++k) {
-    auto from = node::wall_ns();
+    auto injected_ns = node::wall_ns();
     bench.bus_recorder().send(corrupt(4));
-    CHECK(tripped(from) == 0);
+    CHECK(tripped(injected_ns) == 0);
   }
   ReactionTimes reaction("five consecutive corrupt frames", "ECU's emergency frame", 4);
   while (reaction.needs_more()) {
     bench.settle();
-    const auto from = node::wall_ns();
+    const auto injected_ns = node::wall_ns();
     bench.bus_recorder().send(corrupt(5));
-    reaction.add(from, tripped(from));
+    reaction.add(injected_ns, tripped(injected_ns));
   }
   reaction.check();
 }

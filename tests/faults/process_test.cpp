@@ -50,11 +50,12 @@ TEST_CASE("after the gateway is killed the ECUs set PWM to 0 within 52 ms") {
   while (pwm_off.needs_more()) {
     bench.settle();
     const pid_t gateway = bench.process("gateway");
-    const auto from = node::wall_ns();
+    const auto injected_ns = node::wall_ns();
     kill(gateway, SIGKILL);
-    emergency.add(from,
-                  bench.wait_for([&] { return bench.emergency(from, ECU_FAULT_COMMAND_TIMEOUT); }));
-    pwm_off.add(from, bench.wait_for([&] { return bench.pwm_off(from); }));
+    emergency.add(injected_ns, bench.wait_for([&] {
+      return bench.emergency(injected_ns, ECU_FAULT_COMMAND_TIMEOUT);
+    }));
+    pwm_off.add(injected_ns, bench.wait_for([&] { return bench.pwm_off(injected_ns); }));
   }
   emergency.check(), pwm_off.check();
   bench.settle();
@@ -67,11 +68,12 @@ TEST_CASE("while the gateway is stopped PWM is 0; when it resumes it sends no bu
   while (pwm_off.needs_more()) {
     bench.settle();
     const pid_t gateway = bench.process("gateway");
-    const auto from = node::wall_ns();
+    const auto injected_ns = node::wall_ns();
     kill(gateway, SIGSTOP);
-    emergency.add(from,
-                  bench.wait_for([&] { return bench.emergency(from, ECU_FAULT_COMMAND_TIMEOUT); }));
-    pwm_off.add(from, bench.wait_for([&] { return bench.pwm_off(from); }));
+    emergency.add(injected_ns, bench.wait_for([&] {
+      return bench.emergency(injected_ns, ECU_FAULT_COMMAND_TIMEOUT);
+    }));
+    pwm_off.add(injected_ns, bench.wait_for([&] { return bench.pwm_off(injected_ns); }));
     std::this_thread::sleep_for(200ms);
     const auto resumed_ns = node::wall_ns();
     kill(gateway, SIGCONT);
@@ -128,15 +130,16 @@ TEST_CASE("a silent ECU is reported, and its limb takes the safe action within 6
     bench.settle();
     const bool is_reportable = can_be_reported(bench, "ecu_silent", name);
     const pid_t ecu = bench.ecu(address);
-    const auto from = node::wall_ns();
+    const auto injected_ns = node::wall_ns();
     kill(ecu, SIGSTOP);
     const auto reported =
-        bench.wait_for([&] { return bench.events().first(from, "ecu_silent", name); });
-    if (is_reportable) warning.add(from, reported);
+        bench.wait_for([&] { return bench.events().first(injected_ns, "ecu_silent", name); });
+    if (is_reportable) warning.add(injected_ns, reported);
     else warning.discard();
-    lost.add(from, bench.wait_for([&] { return bench.events().first(from, "ecu_lost", name); }));
-    safe_action.add(from, bench.wait_for([&] {
-      return bench.bus_recorder().first(from, [&](const erp::CanFrame& frame) {
+    lost.add(injected_ns,
+             bench.wait_for([&] { return bench.events().first(injected_ns, "ecu_lost", name); }));
+    safe_action.add(injected_ns, bench.wait_for([&] {
+      return bench.bus_recorder().first(injected_ns, [&](const erp::CanFrame& frame) {
         frame_command emergency;  // to one of the others: relax
         return frame_ecu_of(&frame) == (address + 1) % 6 &&
                frame_unpack_command(&frame, &emergency) &&
@@ -147,8 +150,8 @@ TEST_CASE("a silent ECU is reported, and its limb takes the safe action within 6
       return emergency.code == "ecu_silent" && emergency.subject != name &&
              silence_before_ns(bench, emergency.subject, emergency.at_ns) < 9 * ms;
     };
-    safe_action.require("no ECU that sends is reported as silent", from,
-                        std::ranges::none_of(bench.events().since(from), is_false_report));
+    safe_action.require("no ECU that sends is reported as silent", injected_ns,
+                        std::ranges::none_of(bench.events().since(injected_ns), is_false_report));
     kill(ecu, SIGCONT);
   }
   warning.check(), lost.check(), safe_action.check();
@@ -162,11 +165,12 @@ TEST_CASE("after a brown-out PWM is 0 within 2 ms, and the boot frame has the ca
   while (pwm_off.needs_more()) {
     bench.settle();
     const pid_t ecu = bench.ecu(0);
-    const auto from = node::wall_ns();
+    const auto injected_ns = node::wall_ns();
     kill(ecu, SIGKILL);
-    const auto booted = bench.wait_for([&] { return bench.boot(from, FRAME_RESET_BROWN_OUT); });
-    emergency.add(from, booted);
-    pwm_off.add(from, bench.wait_for([&] { return bench.pwm_off(from); }));
+    const auto booted =
+        bench.wait_for([&] { return bench.boot(injected_ns, FRAME_RESET_BROWN_OUT); });
+    emergency.add(injected_ns, booted);
+    pwm_off.add(injected_ns, bench.wait_for([&] { return bench.pwm_off(injected_ns); }));
     int armed = 0;  // in the 5 ms after its boot
     for (const auto& received : bench.bus_recorder().since(booted)) {
       frame_status status;
@@ -185,14 +189,15 @@ TEST_CASE("a hanging ECU program is reset by its watchdog within 12 ms") {
       emergency("CPU hang", "boot frame with the cause", 100);
   while (pwm_off.needs_more()) {
     bench.settle();
-    const auto from = bench.pins().inject(0, WIRE_FAULT_HANG);
-    const auto booted = bench.wait_for([&] { return bench.boot(from, FRAME_RESET_WATCHDOG); });
-    emergency.add(from, booted);
-    pwm_off.add(from, bench.wait_for([&] { return bench.pwm_off(from); }));
+    const auto injected_ns = bench.pins().inject(0, WIRE_FAULT_HANG);
+    const auto booted =
+        bench.wait_for([&] { return bench.boot(injected_ns, FRAME_RESET_WATCHDOG); });
+    emergency.add(injected_ns, booted);
+    pwm_off.add(injected_ns, bench.wait_for([&] { return bench.pwm_off(injected_ns); }));
     int duties = 0;  // duties of a hanging program in the watchdog's 12 ms before the restart
     for (const auto& received : bench.bus_recorder().since(booted - 11 * ms))
       duties += received.at_ns < booted && !is_command(received.frame);
-    pwm_off.require("the hanging program sends no frame", from, booted > 0 && duties == 0,
+    pwm_off.require("the hanging program sends no frame", injected_ns, booted > 0 && duties == 0,
                     booted > 0);
   }
   pwm_off.check(), emergency.check();
@@ -207,10 +212,11 @@ TEST_CASE("after a controller is killed or stopped the safe action follows withi
     while (safe_action.needs_more()) {
       bench.settle();
       const pid_t controller = bench.process("length_control");
-      const auto from = node::wall_ns();
+      const auto injected_ns = node::wall_ns();
       kill(controller, signal);
-      safe_action.add(from,
-                      bench.wait_for([&] { return bench.bus_recorder().first(from, relaxes); }));
+      safe_action.add(injected_ns, bench.wait_for([&] {
+        return bench.bus_recorder().first(injected_ns, relaxes);
+      }));
       CHECK(bench.owner() == "");
       if (signal == SIGSTOP) kill(controller, SIGCONT);
       CHECK(tests::wait_until([&] { return bench.owner() == "length_control"; }));
@@ -227,11 +233,12 @@ TEST_CASE("after the plant is killed the ECUs set PWM to 0 within 52 ms") {
   while (pwm_off.needs_more()) {
     bench.settle();
     const pid_t pid = bench.process("plant");
-    const auto from = node::wall_ns();
+    const auto injected_ns = node::wall_ns();
     kill(pid, SIGKILL);
-    plant.add(from,
-              bench.wait_for([&] { return bench.emergency(from, ECU_FAULT_COMMAND_TIMEOUT); }));
-    pwm_off.add(from, bench.wait_for([&] { return bench.pwm_off(from); }));
+    plant.add(injected_ns, bench.wait_for([&] {
+      return bench.emergency(injected_ns, ECU_FAULT_COMMAND_TIMEOUT);
+    }));
+    pwm_off.add(injected_ns, bench.wait_for([&] { return bench.pwm_off(injected_ns); }));
   }
   plant.check(), pwm_off.check();
   bench.settle();

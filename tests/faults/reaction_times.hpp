@@ -24,8 +24,8 @@ class ReactionTimes {
   /// Total stall of the machine that makes an injection invalid. Half of `scheduling_ms`; chosen.
   static constexpr double stall_ms = 5;
 
-  ReactionTimes(std::string fault, std::string what, double limit_ms)
-      : fault_(std::move(fault)), reaction_(std::move(what)), limit_ms_(limit_ms) {}
+  ReactionTimes(std::string fault, std::string reaction, double limit_ms)
+      : fault_(std::move(fault)), reaction_(std::move(reaction)), limit_ms_(limit_ms) {}
 
   /// True until `needed` injections are valid, or ten times as many were made.
   bool needs_more(int needed = injections()) const {
@@ -47,10 +47,10 @@ class ReactionTimes {
   void discard() { ++discarded_; }
   /// A further condition on an injection. A violation counts only if the machine did not stall and
   /// `is_conclusive` is true.
-  void require(const std::string& what, std::int64_t from_ns, bool is_satisfied,
+  void require(const std::string& requirement, std::int64_t from_ns, bool is_satisfied,
                bool is_conclusive = true) {
-    INFO(fault_ << ": " << what);
-    requirements_[what] |= is_satisfied;
+    INFO(fault_ << ": " << requirement);
+    requirements_[requirement] |= is_satisfied;
     if (is_conclusive && is_valid(from_ns)) CHECK(is_satisfied);
   }
   /// True if the machine did not stall during an injection.
@@ -73,8 +73,8 @@ class ReactionTimes {
           discarded_);
     std::fflush(stdout);
     INFO(fault_ << ": " << reaction_);
-    for (const auto& [what, satisfied] : requirements_) {
-      INFO(what);
+    for (const auto& [requirement, satisfied] : requirements_) {
+      INFO(requirement);
       CHECK(satisfied);
     }
     CHECK(detected_);

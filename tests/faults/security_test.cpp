@@ -95,11 +95,11 @@ class Rig {
 /// A robot's authority, and another one.
 struct Authorities {
   Folder folder;
-  std::string own = folder / "own", foreign = folder / "foreign";
+  std::string own_folder = folder / "own", foreign_folder = folder / "foreign";
   Authorities() {
     // Earlier tests of this process also try to join the bus: DDS reports each refusal.
     dds_set_log_sink([](void*, const dds_log_data_t*) {}, nullptr);
-    for (const auto& folder_name : {own, foreign})
+    for (const auto& folder_name : {own_folder, foreign_folder})
       REQUIRE(run("erp security make " + folder_name).exit_code == 0);
   }
 };
@@ -119,10 +119,10 @@ TEST_CASE("in an unprotected graph an intruder's commands are accepted and it re
 TEST_CASE(
     "without a certificate of the robot's authority an intruder neither commands nor receives") {
   const Authorities authorities;
-  Rig rig(authorities.own);
+  Rig rig(authorities.own_folder);
   int succeeded = 0;
   for (int k = 0; k < faults::injections(); ++k)
-    for (const auto& certificate : {std::string(), authorities.foreign}) {
+    for (const auto& certificate : {std::string(), authorities.foreign_folder}) {
       const Result result = intrude(certificate, k % 2 ? "plant" : "");
       INFO((certificate.empty() ? "no certificate" : "another authority's certificate"));
       CHECK(result.is_isolated());
@@ -140,8 +140,8 @@ TEST_CASE(
 
 TEST_CASE("an intruder with the robot's own certificate is accepted") {
   const Authorities authorities;
-  Rig rig(authorities.own);
-  const Result result = intrude(authorities.own);
+  Rig rig(authorities.own_folder);
+  const Result result = intrude(authorities.own_folder);
   rig.stop();
   CHECK(result.commands_robot());
   CHECK(result.receives_frames());

@@ -10,11 +10,11 @@ namespace {
 void inject(Bench& bench, ReactionTimes& pwm_off, int fault, const PinRelay::Alter& alter,
             std::int64_t injected_ns = 0) {
   bench.settle();
-  const auto from = injected_ns ? injected_ns : bench.pins().alter(alter);
-  const auto message = bench.wait_for([&] { return bench.emergency(from, fault); });
+  const auto start_ns = injected_ns ? injected_ns : bench.pins().alter(alter);
+  const auto message = bench.wait_for([&] { return bench.emergency(start_ns, fault); });
   INFO("last reported fault: " << bench.last_fault());
-  pwm_off.require("the injected fault is reported", from, message != 0);
-  pwm_off.add(from, bench.wait_for([&] { return bench.pwm_off(from, 0, 0); }));
+  pwm_off.require("the injected fault is reported", start_ns, message != 0);
+  pwm_off.add(start_ns, bench.wait_for([&] { return bench.pwm_off(start_ns, 0, 0); }));
   bench.pins().pass_unchanged();
   bench.command_off();
 }
@@ -45,7 +45,7 @@ TEST_CASE("a stuck force or current sensor sets PWM to 0 within 102 ms of rotati
       // Start just after a reversal of the triangle: the shaft then turns for longer than 100 ms.
       std::optional<ecu_inputs> stuck_inputs;
       std::optional<std::int32_t> last_counts;
-      std::int64_t from = 0;
+      std::int64_t start_ns = 0;
       int turning = 0;
       bool was_reversed = false;
       std::mutex guard;
@@ -60,18 +60,18 @@ TEST_CASE("a stuck force or current sensor sets PWM to 0 within 102 ms of rotati
                                      : 0;  // counts per period; 41721 counts per radian: 1.8 rad/s
         was_reversed = was_reversed || turning == 0;
         if (!stuck_inputs && was_reversed && turning == 20)
-          stuck_inputs = in, from = node::wall_ns();
+          stuck_inputs = in, start_ns = node::wall_ns();
         if (!stuck_inputs) return;
         if (tension) in.tension_counts = stuck_inputs->tension_counts;
         else in.current_counts = stuck_inputs->current_counts;
       });
       const auto message =
           bench.wait_for([&] { return bench.emergency(1, ECU_FAULT_SENSOR_STUCK); });
-      if (from == 0 && !pwm_off.machine_kept_time(began, node::wall_ns()))
+      if (start_ns == 0 && !pwm_off.machine_kept_time(began, node::wall_ns()))
         pwm_off.discard();  // the channel tripped before the injection
       else {
-        pwm_off.require("the injected fault is reported", from, message != 0);
-        pwm_off.add(from, bench.wait_for([&] { return bench.pwm_off(from, 0, 0); }));
+        pwm_off.require("the injected fault is reported", start_ns, message != 0);
+        pwm_off.add(start_ns, bench.wait_for([&] { return bench.pwm_off(start_ns, 0, 0); }));
       }
       bench.pins().pass_unchanged();
       bench.command_off();
@@ -87,9 +87,9 @@ TEST_CASE("a slipping encoder sets PWM to 0 within 52 ms") {
     // The reference of the potentiometer is kept over a clear; only a reset clears it.
     inject(bench, pwm_off, ECU_FAULT_POTENTIOMETER,
            [](int, board_readings& r) { r.channel[0].encoder_counts += 41721 / 6; });
-    const auto from = node::wall_ns();
+    const auto start_ns = node::wall_ns();
     kill(bench.ecu(0), SIGKILL);
-    REQUIRE(bench.wait_for([&] { return bench.boot(from, FRAME_RESET_BROWN_OUT); }) != 0);
+    REQUIRE(bench.wait_for([&] { return bench.boot(start_ns, FRAME_RESET_BROWN_OUT); }) != 0);
   }
   pwm_off.check();
 }
@@ -136,23 +136,24 @@ TEST_CASE("three loop overruns set PWM to 0 within 8 ms, bus-off at an ECU withi
       rejoined("bus-off at an ECU", "rejoined, disarmed", 100);
   while (overrun.needs_more() || bus_off_pwm.needs_more()) {
     bench.settle();
-    auto from = bench.pins().inject(0, WIRE_FAULT_BUSY, 6);
-    from = bench.wait_for([&] { return bench.next_period(from); });
-    const auto reported = bench.wait_for([&] { return bench.emergency(from, ECU_FAULT_OVERRUN); });
-    overrun.require("the injected fault is reported", from, reported != 0);
-    overrun.add(from, bench.wait_for([&] { return bench.pwm_off(from); }));
+    auto start_ns = bench.pins().inject(0, WIRE_FAULT_BUSY, 6);
+    start_ns = bench.wait_for([&] { return bench.next_period(start_ns); });
+    const auto reported =
+        bench.wait_for([&] { return bench.emergency(start_ns, ECU_FAULT_OVERRUN); });
+    overrun.require("the injected fault is reported", start_ns, reported != 0);
+    overrun.add(start_ns, bench.wait_for([&] { return bench.pwm_off(start_ns); }));
     bench.command_off();
 
     bench.settle();
-    from = bench.pins().inject(0, WIRE_FAULT_BUS_OFF, 10);
-    bus_off_pwm.add(from, bench.wait_for([&] { return bench.pwm_off(from); }));
+    start_ns = bench.pins().inject(0, WIRE_FAULT_BUS_OFF, 10);
+    bus_off_pwm.add(start_ns, bench.wait_for([&] { return bench.pwm_off(start_ns); }));
     const auto rejoined_ns = bench.wait_for([&] {
-      return bench.bus_recorder().first(from + 15 * ms, [](const erp::CanFrame& frame) {
+      return bench.bus_recorder().first(start_ns + 15 * ms, [](const erp::CanFrame& frame) {
         frame_status message;
         return frame_unpack_status(&frame, &message) && message.state != ECU_STATE_RUNNING;
       });
     });
-    rejoined.add(from, rejoined_ns);
+    rejoined.add(start_ns, rejoined_ns);
   }
   overrun.check(), bus_off_pwm.check(), rejoined.check();
 }

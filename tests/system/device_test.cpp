@@ -106,15 +106,15 @@ TEST_CASE("a force step: rise time at most 318 ms, steady-state RMS error at mos
       run("erp launch launch/force_step.xml --lockstep --for 5s --out $(mktemp -d)/run");
   CHECK(outcome.exit_code == 0);
   INFO(outcome.output);
-  const auto at = outcome.output.find("flexor steps");
-  REQUIRE(at != std::string::npos);
-  double from, to, start, rise_ms, overshoot, steady;
-  REQUIRE(std::sscanf(outcome.output.c_str() + at,
+  const auto line_begin = outcome.output.find("flexor steps");
+  REQUIRE(line_begin != std::string::npos);
+  double from_N, to_N, start_s, rise_ms, overshoot_N, steady_N;
+  REQUIRE(std::sscanf(outcome.output.c_str() + line_begin,
                       "flexor steps %lf N -> %lf N at %lf s: rise (10-90 %%) %lf ms, overshoot %lf "
                       "N, steady RMS %lf N",
-                      &from, &to, &start, &rise_ms, &overshoot, &steady) == 6);
+                      &from_N, &to_N, &start_s, &rise_ms, &overshoot_N, &steady_N) == 6);
   CHECK(rise_ms <= 318);
-  CHECK(steady <= 0.236);
+  CHECK(steady_N <= 0.236);
 }
 
 /// Checks that the arm holds its poses. Returns findings if the recording lacks ticks of a pose.

@@ -22,11 +22,11 @@ std::string graph(const Folder& folder, const std::string& robot, const Componen
 }
 
 /// A graph of the arm with an effect that its controllers do not model.
-std::string arm_with(const Folder& folder, const std::string& type, const std::string& on,
+std::string arm_with(const Folder& folder, const std::string& type, const std::string& place,
                      const std::string& parameter, const std::string& value) {
   const std::string configs = ERP_SOURCE_DIR "/configs/arm/";
   erp::Robot robot = erp::read_robot(configs + "robot.xml");
-  robot.effects = {{{}, type, on, {{{}, parameter, value}}}};
+  robot.effects = {{{}, type, place, {{{}, parameter, value}}}};
   std::ofstream(folder / "robot.xml") << erp::write_robot(robot);
   return graph(folder, "robot.xml",
                {{"joint_target", configs + "figure_8.xml"},

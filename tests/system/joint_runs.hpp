@@ -31,10 +31,10 @@ inline std::string recorded(const Folder& folder, const std::string& graph, int 
   return recording_in(folder / "run");
 }
 
-inline std::vector<launch::JointError> errors(const std::string& file, const std::string& of,
+inline std::vector<launch::JointError> errors(const std::string& file, const std::string& source,
                                               const std::string& against, double from_s = 0.5) {
   const recording::McapReader reader(file);
-  auto errors_of_joints = launch::joint_errors(recording::joint_tracks(reader, of),
+  auto errors_of_joints = launch::joint_errors(recording::joint_tracks(reader, source),
                                                recording::joint_tracks(reader, against), from_s);
   REQUIRE(errors_of_joints.size() > 0);
   for (const auto& e : errors_of_joints) REQUIRE(e.frames > 500);

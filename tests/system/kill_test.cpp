@@ -77,9 +77,9 @@ void check_resumed(const std::string& file) {
 }
 
 /// Prints a reaction time. Returns a finding if it exceeds the limit plus the scheduling delay.
-Findings check_time(const std::string& what, std::optional<double> after_ms, double limit_ms) {
+Findings check_time(const std::string& reaction, std::optional<double> after_ms, double limit_ms) {
   const std::string message =
-      what + (after_ms ? " after " + std::to_string(*after_ms) + " ms" : ": never");
+      reaction + (after_ms ? " after " + std::to_string(*after_ms) + " ms" : ": never");
   std::cout << message << std::endl;
   if (after_ms && *after_ms < limit_ms + scheduling_ms) return {};
   return {message + ", limit " + std::to_string(limit_ms)};
@@ -89,9 +89,10 @@ std::string file_in(const Folder& folder) { return folder / "run/hinge_rig.mcap"
 
 /// Kills a program of the rig and checks that every channel is safe in time and the graph resumes.
 template <class IsSafe>
-void check_safe_in_time(const std::string& program, const std::string& what, double limit_ms,
+void check_safe_in_time(const std::string& program, const std::string& reaction, double limit_ms,
                         IsSafe is_safe) {
-  bool had_reaction = false;  // in any attempt, also one that was repeated because of machine stalls
+  bool had_reaction =
+      false;  // in any attempt, also one that was repeated because of machine stalls
   in_real_time([&] {
     const Folder folder;
     const auto killed = run_and_kill(program, folder / "run");
@@ -100,7 +101,7 @@ void check_safe_in_time(const std::string& program, const std::string& what, dou
     check_resumed(file_in(folder));
     const auto after_ms = safe_after_ms(frames, killed.at_ns, is_safe);
     had_reaction = had_reaction || after_ms;
-    return check_time(what, after_ms, limit_ms);
+    return check_time(reaction, after_ms, limit_ms);
   });
   CHECK(had_reaction);
 }
@@ -123,7 +124,8 @@ TEST_CASE("after the plant is killed, every ECU is at PWM 0 within 52 ms") {
 }
 
 TEST_CASE("a killed simulator is reported within 52 ms and restarts with disarmed channels") {
-  bool had_reaction = false;  // in any attempt, also one that was repeated because of machine stalls
+  bool had_reaction =
+      false;  // in any attempt, also one that was repeated because of machine stalls
   in_real_time([&] {
     const Folder folder;
     const auto killed = run_and_kill("sim", folder / "run");

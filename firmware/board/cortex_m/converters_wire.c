@@ -21,14 +21,14 @@ void converters_start(uint8_t turn) {
 }
 
 bool converters_done(board_readings* readings) {
-  bool done = false;
+  bool readings_received = false;
   for (uint8_t byte; usart_take(USART_ROBOT, &byte);) {
     const wire_kind kind = wire_take(&reader, byte);
     if (kind == WIRE_FAULT) wire_unpack_fault(&reader, &injected);
     if (kind == WIRE_READINGS) wire_unpack_readings(&reader, readings);
-    done = done || kind == WIRE_READINGS;
+    readings_received = readings_received || kind == WIRE_READINGS;
   }
-  return done;
+  return readings_received;
 }
 
 wire_fault converters_fault(void) {

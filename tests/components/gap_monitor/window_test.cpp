@@ -13,21 +13,21 @@ erp::Robot hinge_rig() { return erp::read_robot(rigs::config("hinge_rig/robot.xm
 
 /// A row of a recording as a sensor frame.
 erp::SensorFrame frame_of(const recording::Table& table, const erp::Robot& robot, std::size_t row) {
-  const auto at = [&](const std::string& name) { return table.find(name)->values[row]; };
+  const auto value_of = [&](const std::string& name) { return table.find(name)->values[row]; };
   erp::SensorFrame frame;
-  frame.stamp_ns = std::llround(1e9 * at("time_s")), frame.sequence = row;
+  frame.stamp_ns = std::llround(1e9 * value_of("time_s")), frame.sequence = row;
   for (const erp::Actuator& a : robot.actuators) {
     erp::ActuatorSample s{};
     erp::assign(s.name, a.name);
-    s.valid = erp::valid::all, s.mode = std::uint8_t(at(a.name + ".mode"));
-    s.reference = at(a.name + ".reference"), s.voltage_V = at(a.name + ".voltage_V");
-    s.current_A = at(a.name + ".current_A"), s.shaft_rad = at(a.name + ".shaft_rad");
-    s.tension_N = at(a.name + ".tension_N");
+    s.valid = erp::valid::all, s.mode = std::uint8_t(value_of(a.name + ".mode"));
+    s.reference = value_of(a.name + ".reference"), s.voltage_V = value_of(a.name + ".voltage_V");
+    s.current_A = value_of(a.name + ".current_A"), s.shaft_rad = value_of(a.name + ".shaft_rad");
+    s.tension_N = value_of(a.name + ".tension_N");
     erp::append(frame.actuators, s);
   }
   erp::JointSample joint{};
   erp::assign(joint.name, "elbow");
-  joint.valid = erp::valid::joint_angle, joint.angle_rad = at("elbow.angle_rad");
+  joint.valid = erp::valid::joint_angle, joint.angle_rad = value_of("elbow.angle_rad");
   erp::append(frame.joints, joint);
   return frame;
 }

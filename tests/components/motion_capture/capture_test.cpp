@@ -76,7 +76,7 @@ TEST_CASE("the spot of a ball is within 0.1 pixel of its projection") {
     sim::cameras::Painter painter(camera, {}, 3);
     const auto spots = find_spots(painter.paint(std::span(&ball, 1), {}), {});
     REQUIRE(spots.size() == 1);
-    CHECK((spots[0].at - *camera.project(ball.at_m)).norm() < 0.1);
+    CHECK((spots[0].centre - *camera.project(ball.at_m)).norm() < 0.1);
   }
 }
 

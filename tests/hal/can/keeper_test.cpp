@@ -136,9 +136,9 @@ TEST_CASE("a silent ECU is reported after 10 ms, after 50 ms and when it sends a
   std::vector<std::pair<std::int64_t, erp::EcuWatch::Event>> events;
   const auto pass_until = [&](std::int64_t from_ms, std::int64_t to_ms) {
     for (std::int64_t t = from_ms; t <= to_ms; ++t)
-      watch.step(t * ms, [&](int ecu, erp::EcuWatch::Event what) {
+      watch.step(t * ms, [&](int ecu, erp::EcuWatch::Event event) {
         CHECK(ecu == 5);
-        events.emplace_back(t, what);
+        events.emplace_back(t, event);
       });
   };
   pass_until(0, 100);

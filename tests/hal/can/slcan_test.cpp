@@ -46,8 +46,8 @@ struct Line {
   }
   bool was_reported(const std::string& code) const { return time_of(code) != 0; }
   std::int64_t time_of(const std::string& code) const {
-    for (const auto& [what, at] : notices)
-      if (what == code) return at;
+    for (const auto& [notice, time_ns] : notices)
+      if (notice == code) return time_ns;
     return 0;
   }
   int count_of(const std::string& code) const {
@@ -100,9 +100,10 @@ TEST_CASE("error-warning, error-passive and error-active are reported, in this o
 constexpr std::int64_t scheduling_ns = 10 * ms;
 
 /// Adds a finding if a time is not within min_ns … max_ns, extended by the scheduling delay.
-void check_time(tests::Findings& findings, const char* what, std::int64_t duration_ns,
+void check_time(tests::Findings& findings, const char* action, std::int64_t duration_ns,
                 std::int64_t min_ns, std::int64_t max_ns) {
-  const std::string text = what + (" after " + std::to_string(1e-6 * double(duration_ns)) + " ms");
+  const std::string text =
+      action + (" after " + std::to_string(1e-6 * double(duration_ns)) + " ms");
   std::printf("%s\n", text.c_str());
   if (duration_ns < min_ns - scheduling_ns || duration_ns >= max_ns + scheduling_ns)
     findings.push_back(text);
