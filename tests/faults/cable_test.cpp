@@ -85,8 +85,8 @@ TEST_CASE(
     "limits") {
   tests::Folder folder;
   write_rig(folder, 0.008);
-  BadCable cable(Bench::far_bus(), Bench::bus());
-  Bench bench(folder / "robot.xml", folder / "graph.xml", {}, Bench::far_bus());
+  BadCable cable(Bench::host_bus_behind_cable(), Bench::bus());
+  Bench bench(folder / "robot.xml", folder / "graph.xml", {}, Bench::host_bus_behind_cable());
   struct Case {
     const char* description;
     Impairment impairment;

@@ -27,10 +27,10 @@ Result intrude(const std::string& security, const std::string& claimed_name = ""
   INFO(message.output);
   REQUIRE(message.exit_code == 0);
   Result result;
-  std::istringstream arguments(message.output.substr(message.output.rfind("readers ")));
+  std::istringstream fields(message.output.substr(message.output.rfind("readers ")));
   std::string word;
-  arguments >> word >> result.readers >> word >> result.writers >> word >> result.received >>
-      word >> result.after_ms;
+  fields >> word >> result.readers >> word >> result.writers >> word >> result.received >> word >>
+      result.after_ms;
   return result;
 }
 
@@ -67,7 +67,7 @@ class Rig {
       for (const auto& actuator : elements(message, "actuators"))
         is_processed = is_processed || text(*actuator.members(), "owner") == "intruder" ||
                        number(*actuator.members(), "refused") > 0;
-    return count;
+    return is_processed;
   }
   /// Largest difference of the flexor's tension from 40 N in the last second of the run.
   double error_N() const {

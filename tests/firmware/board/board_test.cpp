@@ -80,7 +80,7 @@ TEST_CASE("a board drives both channels and sends their state every period") {
   CHECK(board.duty[0] == Approx(1023 * 1.5 / 12).margin(1));
   CHECK(board.duty[1] == board.duty[0]);
   frame_status content;
-  REQUIRE(frame_unpack_status(&frames.received_duty(), &content));
+  REQUIRE(frame_unpack_status(&frames.back(), &content));
   CHECK(content.duty == board.duty[1]);
 }
 
@@ -164,7 +164,7 @@ TEST_CASE("in lockstep a period waits for the answer and for new readings") {
   std::vector<bus_frame> repeated(ECU_LINK_FRAMES_MAX);
   CHECK(ecu_board_repeat(&board.board, repeated.data()) > content.size());  // with all pages
   frame_status status;
-  REQUIRE(frame_unpack_status(&content.received_duty(), &status));
+  REQUIRE(frame_unpack_status(&content.back(), &status));
   const frame_command answer{{{ECU_REQUEST_ARM, 0}, {ECU_REQUEST_ARM, 0}}, status.counter, 1};
   bus_frame frame;
   frame_pack_command(&frame, 5, &answer);
