@@ -9,7 +9,8 @@ std::atomic<std::size_t> count = 0;
 std::size_t tests::allocations() { return count; }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-// glibc's own allocator, under the names that are left when its public ones are taken.
+// The allocator of glibc. These names remain available when a program replaces the public
+// functions.
 extern "C" {
 void* __libc_malloc(std::size_t);
 void* __libc_calloc(std::size_t, std::size_t);

@@ -3,8 +3,8 @@
 
 namespace tests {
 
-/// How often this program has asked for memory, in whatever way; with tests/allocations.cpp linked.
-/// Always 0 under a sanitizer, which has an allocator of its own.
+/// Returns the number of memory allocations of this program, by any function. The program must link
+/// tests/allocations.cpp. Always 0 under a sanitizer, because a sanitizer has its own allocator.
 std::size_t allocations();
 
 }  // namespace tests

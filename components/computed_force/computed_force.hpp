@@ -88,7 +88,7 @@ class ComputedForce {
   using Vector = Eigen::VectorXd;
   void reference_acceleration(double dt_s);
   void add_friction();
-  void mark_tripped(const erp::SensorFrame& frame);
+  void fix_tripped_tensions(const erp::SensorFrame& frame);
   erp::ActuatorCommand command(const Eigen::MatrixXd& jacobian, const Vector& tension_N,
                                double dt_s);
 
@@ -96,16 +96,16 @@ class ComputedForce {
   erp::Robot robot_;
   joints::Names names_;
   sim::Musculoskeletal model_;
-  std::unique_ptr<JacobianSource> source_;
+  std::unique_ptr<JacobianSource> jacobian_source_;
   sim::TensionDistribution distribution_;
-  std::vector<sim::JointReading> now_;
+  std::vector<sim::JointReading> measured_;
   std::vector<sim::JointMotion> desired_;
-  std::vector<sim::ForceReference> laws_;
+  std::vector<sim::ForceReference> force_references_;
   Vector speed_d_, acceleration_d_;  ///< desired values, in the joints' own frames
   Vector acceleration_, integral_, bias_, torque_, last_N_, rate_N_per_s_, line_rate_,
       line_acceleration_;
   Eigen::MatrixXd inertia_;
-  bool driving_ = false;
+  bool inputs_were_valid_ = false;
 };
 
 }  // namespace control

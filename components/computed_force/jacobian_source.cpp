@@ -66,21 +66,21 @@ class OnLine : public JacobianSource {
   }
 
  private:
-  static constexpr double taut_N = 2;  // chosen: below, the line does not determine the path length
+  static constexpr double min_taut_N = 2;  // chosen: a slack line does not measure the path length
 
-  /// Path lengths from the actuators' measurements, up to constants. False: not all are known.
+  /// Path lengths from the actuators' measurements, up to constants. False if one is missing.
   bool measure(const erp::SensorFrame& frame) {
     constexpr auto needed = erp::valid::shaft | erp::valid::tension;
-    std::size_t known = 0;
+    std::size_t measured_count = 0;
     for (const erp::ActuatorSample& sample : erp::samples(frame.actuators))
       for (std::size_t a = 0; a < robot_.actuators.size(); ++a) {
         if (robot_.actuators[a].name != sample.name) continue;
-        if ((sample.valid & needed) != needed || !(sample.tension_N > taut_N)) return false;
+        if ((sample.valid & needed) != needed || !(sample.tension_N > min_taut_N)) return false;
         correction_m_[static_cast<Eigen::Index>(a)] =
             laws_[a].length_m(sample.tension_N, sample.shaft_rad);
-        ++known;
+        ++measured_count;
       }
-    return known == robot_.actuators.size();
+    return measured_count == robot_.actuators.size();
   }
 
   erp::Robot robot_;

@@ -11,8 +11,8 @@ namespace control {
 enum class JacobianKind {
   analytic,    ///< from robot.xml's paths
   network,     ///< derivative of perceptrons that `erp model muscles` has trained
-  difference,  ///< the same by difference quotient
-  on_line      ///< network or, without one, robot.xml, with corrections learned during motion
+  difference,  ///< difference quotient of the same perceptrons
+  on_line      ///< network if given, else robot.xml; plus corrections learned during motion
 };
 
 class JacobianSource {

@@ -11,6 +11,9 @@
 namespace control {
 namespace {
 
+/// Chosen: after a longer gap without frames the position of the robot is unknown.
+constexpr double max_frame_gap_s = 0.1;
+
 using namespace sim::experience;
 using sim::Vec3;
 
@@ -29,10 +32,10 @@ std::shared_ptr<const Feedback> feedback(const Experience::Params& params, const
   return nullptr;
 }
 
-std::string off_mm(const std::optional<Vec3>& at_m, const Vec3& target_m) {
+std::string offset_text_mm(const std::optional<Vec3>& at_m, const Vec3& target_m) {
   if (!at_m) return "unknown";
-  const Vec3 off = 1e3 * (*at_m - target_m);
-  return fmt::format("{:+.2f} {:+.2f} {:+.2f} mm", off.x(), off.y(), off.z());
+  const Vec3 offset_mm = 1e3 * (*at_m - target_m);
+  return fmt::format("{:+.2f} {:+.2f} {:+.2f} mm", offset_mm.x(), offset_mm.y(), offset_mm.z());
 }
 
 }  // namespace
@@ -47,13 +50,13 @@ Experience::Experience(const Params& params, const erp::Robot& robot, node::Node
       base_(base_of(file_)),
       hand_(file_.hand, sim::RobotTree(robot).names),
       motors_(robot) {
-  for (const erp::Joint& joint : names_.list()) now_.push_back(sim::initial_reading(joint));
+  for (const erp::Joint& joint : names_.list()) joints_.push_back(sim::initial_reading(joint));
   line_m_ = tension_N_ = Eigen::VectorXd::Zero(std::ssize(robot.actuators));
   feedback(params_, base_, 0, Vec3::Zero());  // reports errors of the rules file at start-up
 }
 
-/// Values that were not measured keep their last value; the plant does not drive such an actuator.
-void Experience::read(const erp::SensorFrame& frame) {
+/// A signal that was not measured keeps its last value. The plant does not drive its actuator.
+void Experience::read_measurements(const erp::SensorFrame& frame) {
   for (std::size_t m = 0; const erp::ActuatorSample& sample : erp::samples(frame.actuators)) {
     const auto muscle = static_cast<Eigen::Index>(m++);
     if (muscle >= line_m_.size()) return;
@@ -65,22 +68,22 @@ void Experience::read(const erp::SensorFrame& frame) {
 std::optional<Vec3> Experience::hand_m(const erp::SensorFrame& frame,
                                        const node::Latest<erp::JointState>& joints) {
   if (!joints || joints.age_s > params_.stale_s ||
-      !names_.read(joints.message, frame.stamp_ns, now_))
+      !names_.read(joints.message, frame.stamp_ns, joints_))
     return std::nullopt;
-  skeleton_.place(now_);
+  skeleton_.place(joints_);
   return hand_.in(skeleton_.poses());
 }
 
 int Experience::nearest_start() const {
-  const auto off = [&](const StartRow& start) {
+  const auto squared_distance = [&](const StartRow& start) {
     return (Eigen::Map<const Eigen::VectorXd>(start.line_m.data(), line_m_.size()) - line_m_)
         .squaredNorm();
   };
-  return static_cast<int>(std::ranges::min_element(file_.starts.all, {}, off) -
+  return static_cast<int>(std::ranges::min_element(file_.starts.all, {}, squared_distance) -
                           file_.starts.all.begin());
 }
 
-void Experience::begin() {
+void Experience::begin_reach() {
   const Vec3 target_m = sim::vec(params_.goals[goal_].at_m);
   start_ = nearest_start();
   const Eigen::VectorXd desired_Vs = base_.inverse(start_, target_m);
@@ -95,11 +98,11 @@ void Experience::begin() {
                             feedback(params_, base_, start_, target_m)));
 }
 
-void Experience::end() {
+void Experience::end_reach() {
   report_reached();
   if (const auto& settled_m = reach_->settled_m())
     base_.add({start_, reach_->plan().scales_Vs, *settled_m});
-  write();
+  save_base();
   ++goal_;
   node_.show("goals", static_cast<double>(goal_));
   if (goal_ == params_.goals.size())
@@ -109,11 +112,11 @@ void Experience::end() {
 void Experience::report_reached() {
   const Vec3& target_m = reach_->plan().target_m;
   const std::string goal = "goal " + std::to_string(goal_ + 1);
-  node_.report(
-      erp::Severity::info, goal, "reached",
-      fmt::format(
-          "offset {} before feedback, {} after it", off_mm(reach_->settled_m(), target_m),
-          reach_->plan().feedback ? off_mm(reach_->corrected_m(), target_m) : "no feedback"));
+  node_.report(erp::Severity::info, goal, "reached",
+               fmt::format("offset {} before feedback, {} after it",
+                           offset_text_mm(reach_->settled_m(), target_m),
+                           reach_->plan().feedback ? offset_text_mm(reach_->corrected_m(), target_m)
+                                                   : "no feedback"));
   if (reach_->limited())
     node_.report(erp::Severity::warning, goal, "limited",
                  fmt::format("feedback exceeded {:.1f} V at a drive and was scaled down",
@@ -122,18 +125,16 @@ void Experience::report_reached() {
 
 erp::ActuatorCommand Experience::step(const erp::SensorFrame& frame, double dt_s,
                                       const node::Latest<erp::JointState>& joints) {
-  constexpr double most_gap_s =
-      0.1;  // longest gap without frames; afterwards the robot's position is unknown; chosen
-  read(frame);
+  read_measurements(frame);
   time_s_ += dt_s;
-  if (reach_ && dt_s > most_gap_s && goal_ < params_.goals.size()) {
+  if (reach_ && dt_s > max_frame_gap_s && goal_ < params_.goals.size()) {
     node_.report(erp::Severity::warning, "goal " + std::to_string(goal_ + 1), "restarted",
                  fmt::format("no frames for {:.2f} s; the reach restarts", dt_s));
     reach_.reset();
   }
   if ((!reach_ || reach_->done()) && goal_ < params_.goals.size()) {
-    if (reach_) end();
-    if (goal_ < params_.goals.size()) begin();
+    if (reach_) end_reach();
+    if (goal_ < params_.goals.size()) begin_reach();
   }
   if (!reach_) return command({false, Eigen::VectorXd::Zero(line_m_.size())});
   const auto hand = hand_m(frame, joints);
@@ -157,13 +158,13 @@ erp::ActuatorCommand Experience::command(const MuscleCommand& desired) const {
   return command;
 }
 
-void Experience::write() const {
+void Experience::save_base() const {
   if (params_.save.empty()) return;
-  BaseFile all = file_;
-  all.experiences.all = rows_of(base_);
+  BaseFile checkpoint = file_;
+  checkpoint.experiences.all = rows_of(base_);
   node::write_or_report(node_, xml::resolved(params_.save, params_.place.file),
                         [&](const std::string& file) {
-                          sim::training_loop::write_checkpoint(file, xml::write(all));
+                          sim::training_loop::write_checkpoint(file, xml::write(checkpoint));
                         });
 }
 

@@ -13,7 +13,7 @@
 /// the nearest start, then feedback on the offset of the hand.
 ///
 /// The hand position follows from the joints. While they are unknown there is no correction: the
-/// voltage only holds the tension, and the gears hold. Each reach is added to the base.
+/// voltage only holds the tension, and the gears hold the arm. Each reach is added to the base.
 namespace control {
 
 /// `<goal at_m="0.3 -0.2 -0.5"/>`: position in the world.
@@ -64,14 +64,14 @@ class Experience {
                             const node::Latest<erp::JointState>& joints);
 
  private:
-  void read(const erp::SensorFrame& frame);
+  void read_measurements(const erp::SensorFrame& frame);
   std::optional<sim::Vec3> hand_m(const erp::SensorFrame& frame,
                                   const node::Latest<erp::JointState>& joints);
   int nearest_start() const;
-  void begin();
-  void end();
+  void begin_reach();
+  void end_reach();
   void report_reached();
-  void write() const;
+  void save_base() const;
   erp::ActuatorCommand command(const sim::experience::MuscleCommand& desired) const;
 
   Params params_;
@@ -84,7 +84,7 @@ class Experience {
   sim::Hand hand_;
   sim::experience::Motors motors_;
   std::optional<sim::experience::Reach> reach_;
-  std::vector<sim::JointReading> now_;
+  std::vector<sim::JointReading> joints_;
   Eigen::VectorXd line_m_, tension_N_;
   std::size_t goal_ = 0;
   int start_ = 0;

@@ -16,12 +16,12 @@ Eye::Eye(const Params& params, const erp::Robot& robot, node::Node& node)
     : spots_(params.spots),
       view_(view_of(params)),
       out_(node.advertise<erp::ImagePoint>()),
-      film_(params.film, view_, params.place.file, robot, node,
-            [this](const auto& frame, std::uint64_t, std::int64_t stamp_ns) {
-              see(frame, stamp_ns);
-            }) {}
+      image_source_(params.image_params, view_, params.place.file, robot, node,
+                    [this](const auto& frame, std::uint64_t, std::int64_t stamp_ns) {
+                      publish_spots(frame, stamp_ns);
+                    }) {}
 
-void Eye::see(const images::ImageSource::Frame& frame, std::int64_t stamp_ns) {
+void Eye::publish_spots(const images::ImageSource::Frame& frame, std::int64_t stamp_ns) {
   erp::ImagePoint message;
   message.stamp_ns = stamp_ns;
   for (std::size_t c = 0; c < frame.size(); ++c)

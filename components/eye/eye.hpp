@@ -13,12 +13,12 @@ class Eye {
   struct Params {
     xml::Place place;
     std::string view;
-    images::ImageSourceParams film;
+    images::ImageSourceParams image_params;
     images::SpotOptions spots;
     void visit(auto& v) {
       v.required("view", view,
                  "File of cameras and markers, a <camera_view>, relative to the config.");
-      film.visit(v);
+      image_params.visit(v);
       v("threshold", spots.threshold,
         {xml::Range{1, 254}, "Brightness above which a pixel belongs to a spot, of 255; chosen."});
     }
@@ -28,12 +28,12 @@ class Eye {
   Eye(const Params& params, const erp::Robot& robot, node::Node& node);
 
  private:
-  void see(const images::ImageSource::Frame& frame, std::int64_t stamp_ns);
+  void publish_spots(const images::ImageSource::Frame& frame, std::int64_t stamp_ns);
 
   images::SpotOptions spots_;
   sim::cameras::ViewConfig view_;
   node::Publisher<erp::ImagePoint>& out_;
-  images::ImageSource film_;  ///< last, because it uses the other members
+  images::ImageSource image_source_;  ///< last, because it uses the other members
 };
 
 }  // namespace eye

@@ -32,7 +32,7 @@ struct Params {
   }
 };
 
-/// State of one actuator on the host, as the ECU would have it.
+/// State of one actuator for the law on the host. The ECU stores the same state.
 struct Channel {
   std::array<float, ECU_PARAMETER_COUNT> gains;
   double radius_m;
@@ -55,7 +55,8 @@ class Follow {
           Channel{sim::design_parameters(robot, actuator, {}), actuator.spindle.radius_m, {}});
   }
 
-  /// nullopt without a fresh target: the plant then takes its safe action.
+  /// nullopt if the target is missing or older than `stale_s`: the plant then takes its safe
+  /// action.
   std::optional<erp::ActuatorCommand> step(const erp::SensorFrame& frame, double dt_s,
                                            const node::Latest<erp::ActuatorTarget>& target) {
     update_speeds(frame, dt_s);
@@ -110,7 +111,7 @@ class Follow {
 
   Params params_;
   std::vector<std::pair<std::string, Channel>> channels_;
-  std::array<float, 64> speeds_{};
+  std::array<float, erp::capacity_of<erp::ActuatorSample>> speeds_{};  ///< rad/s, by channel
 };
 
 }  // namespace follow

@@ -7,9 +7,9 @@
 
 namespace {
 
-// Queue for the messages that arrive during an evaluation (chosen).
-constexpr int depth = 2000;
-constexpr std::int64_t silence_ns = 5'000'000'000;
+// Chosen: room for the messages that arrive during an evaluation.
+constexpr int queue_depth = 2000;
+constexpr std::int64_t silence_ns = 5'000'000'000;  // chosen: without frames, before a report
 
 erp::Robot model_of(const GapMonitor::Params& params, const erp::Robot& robot) {
   if (params.model.empty()) return robot;
@@ -17,7 +17,7 @@ erp::Robot model_of(const GapMonitor::Params& params, const erp::Robot& robot) {
   return erp::read_robot((folder / params.model).string());
 }
 
-std::string name_of(const sim::diagnosis::StageGap& gap) {
+std::string stage_name(const sim::diagnosis::StageGap& gap) {
   return fmt::format("{} of {}", sim::effects::word(gap.stage), gap.on);
 }
 
@@ -29,16 +29,17 @@ GapMonitor::GapMonitor(const Params& params, const erp::Robot& robot, node::Node
       window_(model_of(params, robot), params.window_s),
       out_(node.advertise<erp::StageResidual>()) {
   node.subscribe<erp::JointState>([this](const erp::JointState& state) { window_.receive(state); },
-                                  depth, node::Where::in_loop);
+                                  queue_depth, node::Where::in_loop);
   node.subscribe<erp::SensorFrame>(
       [this](const erp::SensorFrame& frame) {
         window_.receive(frame), received_ = ever_received_ = true;
-        evaluated_ns_ = std::min(evaluated_ns_, frame.stamp_ns);  // a new graph restarts the time
-        if (1e-9 * double(frame.stamp_ns - evaluated_ns_) < params_.every_s) return;
-        evaluated_ns_ = frame.stamp_ns;
+        last_evaluation_ns_ =
+            std::min(last_evaluation_ns_, frame.stamp_ns);  // a new graph restarts at 0
+        if (1e-9 * double(frame.stamp_ns - last_evaluation_ns_) < params_.every_s) return;
+        last_evaluation_ns_ = frame.stamp_ns;
         evaluate();
       },
-      depth, node::Where::in_loop);
+      queue_depth, node::Where::in_loop);
   node.every(silence_ns, [this] { report_silence(); });
 }
 
@@ -54,10 +55,10 @@ void GapMonitor::report_silence() {
 }
 
 void GapMonitor::evaluate() {
-  std::string why;
-  const auto gaps = window_.evaluate(why);
-  if (!why.empty() && !failure_reported_)
-    node_.report(erp::Severity::warning, "", "not_evaluated", why), failure_reported_ = true;
+  std::string reason;
+  const auto gaps = window_.evaluate(reason);
+  if (!reason.empty() && !failure_reported_)
+    node_.report(erp::Severity::warning, "", "not_evaluated", reason), failure_reported_ = true;
   if (gaps.empty()) return;
   publish(gaps);
   for (const auto& gap : gaps) report(gap);
@@ -80,21 +81,21 @@ void GapMonitor::publish(const std::vector<sim::diagnosis::StageGap>& gaps) {
 }
 
 void GapMonitor::report(const sim::diagnosis::StageGap& gap) {
-  StageState& state = states_[name_of(gap)];
-  state.open = gap.open ? state.open + 1 : 0;
-  state.closed = gap.judged && !gap.open ? state.closed + 1 : 0;
-  if (!state.reported && state.open >= params_.consecutive) {
+  StageState& state = states_[stage_name(gap)];
+  state.open_count = gap.open ? state.open_count + 1 : 0;
+  state.closed_count = gap.judged && !gap.open ? state.closed_count + 1 : 0;
+  if (!state.reported && state.open_count >= params_.consecutive) {
     state.reported = true;
     node_.report(
         erp::Severity::warning, gap.on, "gap_open",
         fmt::format(
             "{}: robot and model differ, residual {:.3g} {} rms, noise floor {:.3g} {}; run "
             "`erp gap diagnose` on a recording",
-            name_of(gap), gap.rms, gap.unit, gap.floor, gap.unit));
+            stage_name(gap), gap.rms, gap.unit, gap.floor, gap.unit));
   }
-  if (state.reported && state.closed >= params_.consecutive) {
+  if (state.reported && state.closed_count >= params_.consecutive) {
     state.reported = false;
     node_.report(erp::Severity::info, gap.on, "gap_closed",
-                 name_of(gap) + ": the residual is at its noise floor again");
+                 stage_name(gap) + ": the residual is at its noise floor again");
   }
 }

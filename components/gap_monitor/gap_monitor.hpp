@@ -6,8 +6,8 @@
 #include "components/node/node.hpp"
 
 /// Compares the running robot with its nominal model. Publishes the residuals of every stage on
-/// `stage_residual`, and reports an event when a residual exceeds its noise floor or returns to it. Sends no
-/// commands.
+/// `stage_residual`, and reports an event when a residual exceeds its noise floor or returns to it.
+/// Sends no commands.
 class GapMonitor {
  public:
   static constexpr bool in_background = true;
@@ -31,8 +31,8 @@ class GapMonitor {
 
  private:
   struct StageState {
-    int open = 0, closed = 0;  ///< consecutive evaluations
-    bool reported = false;     ///< as open
+    int open_count = 0, closed_count = 0;  ///< consecutive evaluations with and without a gap
+    bool reported = false;                 ///< the gap was reported as open
   };
   /// Reports missing sensor frames, once per silence.
   void report_silence();
@@ -46,7 +46,7 @@ class GapMonitor {
   node::Publisher<erp::StageResidual>& out_;
   erp::StageResidual message_;
   std::map<std::string, StageState> states_;
-  std::int64_t evaluated_ns_ = 0;
-  bool received_ = false, ever_received_ = false;  ///< a frame: since the last check, at all
+  std::int64_t last_evaluation_ns_ = 0;
+  bool received_ = false, ever_received_ = false;  ///< a frame since the last check; any frame
   bool failure_reported_ = false, silence_reported_ = false;
 };

@@ -23,10 +23,10 @@ const char* reset_text(std::uint8_t cause) {
 std::string ecu_name(int ecu) { return "ecu " + std::to_string(ecu); }
 
 /// "channel 1", or "analog input 0, 2".
-std::string listed(const std::string& what, unsigned bits) {
+std::string list_text(const std::string& noun, unsigned bits) {
   std::string text;
   for (int k = 0; bits >> k; ++k)
-    if (bits >> k & 1u) text += (text.empty() ? what + " " : ", ") + std::to_string(k);
+    if (bits >> k & 1u) text += (text.empty() ? noun + " " : ", ") + std::to_string(k);
   return text;
 }
 
@@ -53,9 +53,9 @@ void GatewayNode::report_hello(const erp::EcuHello& hello) {
                  version_text(hello.content.version));
   else if (hello.lacks_channels || hello.lacks_inputs)
     node_.report(erp::Severity::fault, ecu_name(hello.ecu), "ecu_incomplete",
-                 "has no " + listed("channel", hello.lacks_channels) +
+                 "has no " + list_text("channel", hello.lacks_channels) +
                      (hello.lacks_channels && hello.lacks_inputs ? " and no " : "") +
-                     listed("analog input", hello.lacks_inputs) +
+                     list_text("analog input", hello.lacks_inputs) +
                      ", which robot.xml uses; correct robot.xml or equip the board");
 }
 
@@ -74,8 +74,8 @@ void GatewayNode::report_boot_or_fault(const erp::EcuEmergency& emergency) {
 }
 
 void GatewayNode::report_ecu(int ecu, erp::EcuWatch::Event event) {
-  const std::string& names = actuators_on_[static_cast<std::size_t>(ecu)];
-  const std::string actuators = names.empty() ? "" : " (" + names + ")";
+  const std::string& actuator_names = actuators_on_[static_cast<std::size_t>(ecu)];
+  const std::string actuators = actuator_names.empty() ? "" : " (" + actuator_names + ")";
   switch (event) {
     case erp::EcuWatch::Event::silent:
       return node_.report(erp::Severity::warning, ecu_name(ecu), "ecu_silent",
@@ -101,17 +101,17 @@ void GatewayNode::report_unanswered() {
 void GatewayNode::report_counters() {
   const auto now = gateway_.counters();
   const auto report = [&](std::uint64_t count, std::uint64_t before, const std::string& subject,
-                          const char* what) {
+                          const char* problem) {
     if (count > before)
-      node_.report(erp::Severity::warning, subject, what,
-                   std::to_string(count - before) + " " + what + " more, " + std::to_string(count) +
-                       " in total");
+      node_.report(erp::Severity::warning, subject, problem,
+                   std::to_string(count - before) + " " + problem + " more, " +
+                       std::to_string(count) + " in total");
   };
-  report(now.corrupt, reported_.corrupt, "bus", "corrupt_frames");
-  report(now.lost, reported_.lost, "bus", "lost_frames");
-  report(now.foreign, reported_.foreign, "bus", "foreign_frames");
-  report(now.incomplete_ticks, reported_.incomplete_ticks, "bus", "incomplete_ticks");
-  reported_ = now;
+  report(now.corrupt, reported_counters_.corrupt, "bus", "corrupt_frames");
+  report(now.lost, reported_counters_.lost, "bus", "lost_frames");
+  report(now.foreign, reported_counters_.foreign, "bus", "foreign_frames");
+  report(now.incomplete_ticks, reported_counters_.incomplete_ticks, "bus", "incomplete_ticks");
+  reported_counters_ = now;
   for (std::size_t k = 0; k < buses_.size(); ++k) {
     const std::uint64_t expired = buses_[k].outbox().expired() + buses_[k].outbox().dropped();
     report(expired, unsent_reported_[k], buses_[k].name(), "frames_not_sent");
@@ -121,7 +121,7 @@ void GatewayNode::report_counters() {
 }
 
 void GatewayNode::show_counters() {
-  const auto& now = reported_;
+  const auto& now = reported_counters_;
   node_.show("corrupt", static_cast<double>(now.corrupt));
   node_.show("lost", static_cast<double>(now.lost));
   node_.show("late", static_cast<double>(now.late));
@@ -129,17 +129,17 @@ void GatewayNode::show_counters() {
   node_.show("ticks_left_out", static_cast<double>(ticks_skipped_));
   node_.show("incomplete_ticks", static_cast<double>(now.incomplete_ticks));
   const std::int64_t now_ns = node::monotonic_ns();
-  const double elapsed_s = 1e-9 * static_cast<double>(now_ns - counted_ns_);
+  const double elapsed_s = 1e-9 * static_cast<double>(now_ns - last_counters_ns_);
   for (std::size_t k = 0; k < buses_.size(); ++k) show_bus(k, elapsed_s);
-  counted_ns_ = now_ns;
+  last_counters_ns_ = now_ns;
 }
 
 void GatewayNode::show_bus(std::size_t k, double elapsed_s) {
   erp::BusKeeper& bus = buses_[k];
   const erp::BusCounters now = bus.counters();
   const std::uint64_t frames = now.sent + now.received;
-  const auto show = [&](const char* what, double value) {
-    node_.show(bus.name() + "." + what, value);
+  const auto show = [&](const char* counter, double value) {
+    node_.show(bus.name() + "." + counter, value);
   };
   show("sent", static_cast<double>(now.sent));
   show("received", static_cast<double>(now.received));

@@ -10,13 +10,15 @@
 namespace can {
 namespace {
 
-constexpr std::int64_t tick_ns = 2'000'000;       // the ECUs' period
-constexpr std::int64_t late_ns = 3'000'000;       // chosen: largest lag of an ECU behind the others
+constexpr std::int64_t tick_ns = 2'000'000;  // the ECUs' period
+constexpr std::int64_t tick_timeout_ns =
+    3'000'000;                                    // chosen: largest lag of an ECU behind the others
 constexpr std::int64_t supervise_ns = 1'000'000;  // chosen: period of bus supervision
 constexpr std::int64_t report_ns = 1'000'000'000;  // counters are reported at most once a second
-constexpr std::int64_t discover_ns = 100'000'000;  // chosen: between two DISCOVERs
-constexpr std::uint64_t clock_period = 50;         // ticks: 10 Hz
-constexpr std::size_t window = 2;                  // chosen: frames in flight per ECU
+constexpr std::int64_t discover_ns = 100'000'000;  // chosen: period of DISCOVER
+constexpr int discovers_per_report = 11;           // chosen: unanswered for 1 s
+constexpr std::uint64_t clock_period_ticks = 50;   // 10 Hz
+constexpr std::size_t frames_in_flight = 2;        // chosen: per ECU
 
 std::uint64_t ticks_in(double duration_s) {
   return static_cast<std::uint64_t>(std::llround(duration_s * 1e9 / tick_ns));
@@ -37,11 +39,14 @@ std::string trace_name(const std::string& file, const std::string& bus, std::siz
   return path.replace_filename(path.stem().string() + "." + bus + path.extension().string());
 }
 
-/// Worst-case time of a frame on its bus. On CAN FD four frames per bundle are assumed.
-double time_of_a_frame_s(const erp::BusPlan& plan) {
+constexpr std::size_t frames_per_bundle = 4;  // assumed for the load of CAN FD
+
+/// Worst-case time of a frame on its bus.
+double worst_frame_time_s(const erp::BusPlan& plan) {
   if (!plan.data_bitrate_per_s) return erp::frame_time_s(8, plan.bitrate_per_s);
-  const std::size_t bytes = bundle_size(4);
-  return erp::fd_frame_time_s(bytes, plan.bitrate_per_s, *plan.data_bitrate_per_s) / 4;
+  const std::size_t bytes = bundle_size(frames_per_bundle);
+  return erp::fd_frame_time_s(bytes, plan.bitrate_per_s, *plan.data_bitrate_per_s) /
+         frames_per_bundle;
 }
 
 }  // namespace
@@ -61,26 +66,26 @@ GatewayNode::GatewayNode(const Params& params, const erp::Robot& robot, node::No
   node.subscribe<erp::EcuCommand>([this](const auto& m) { on_command(m); });
   for (erp::BusKeeper& bus : buses_) node.watch(bus.bus().fd(), [this, &bus] { receive(bus); });
   node.on_activate([this] {
-    began_ns_ = node::monotonic_ns();
+    activated_ns_ = node::monotonic_ns();
     discover();
   });
   node.on_deactivate([this] { publish_clock(); });
   node.every(report_ns, [this] { report_counters(); });
   node.every(discover_ns, [this] { discover(); });
   node.every(supervise_ns, [this] { supervise(); });
-  if (!node.clock().lockstep()) node.every(tick_ns, [this] { close_late_tick(); });
+  if (!node.clock().lockstep()) node.every(tick_ns, [this] { close_overdue_tick(); });
 }
 
 void GatewayNode::open(const Params& params, const erp::Robot& robot) {
   erp::refuse_overload(robot);
-  auto opened = erp::open_buses(robot, params.bus, window);
+  auto opened = erp::open_buses(robot, params.bus, frames_in_flight);
   buses_.reserve(opened.size());
   for (std::size_t k = 0; k < opened.size(); ++k) {
     buses_.emplace_back(routes_.name(k), std::move(opened[k]));
     if (!params.trace.empty())
       buses_[k].record(trace_name(params.trace, routes_.name(k), opened.size()));
   }
-  for (const erp::BusPlan& plan : robot.buses()) frame_time_s_.push_back(time_of_a_frame_s(plan));
+  for (const erp::BusPlan& plan : robot.buses()) frame_time_s_.push_back(worst_frame_time_s(plan));
   unsent_reported_.assign(buses_.size(), 0);
   frames_before_.assign(buses_.size(), 0);
 }
@@ -96,7 +101,7 @@ void GatewayNode::send(std::span<const erp::CanFrame> frames) {
 }
 
 void GatewayNode::on_command(const erp::EcuCommand& command) {
-  // Gains sent before this command are already waiting: they are sent first, in every run.
+  // Gains published before this command are in the queue. They are sent first, in every run.
   parameter_in_->poll(true);
   node_.count_step(gateway_.frame().stamp_ns);
   if (node_.clock().lockstep() && command.answers != gateway_.frame().sequence) return;
@@ -140,10 +145,10 @@ void GatewayNode::supervise() {
     for (const auto& notice : bus.supervise(now_ns()))
       node_.report(notice.severity, bus.name(), notice.code, notice.text);
   if (node_.clock().lockstep()) return;  // ECUs have no deadline in lockstep
-  // Read all waiting frames before judging an ECU: this process may itself have been late.
-  const auto judged_at_ns = now_ns();
+  // Reads all waiting frames before ECUs are evaluated, because this process may have been delayed.
+  const auto evaluation_ns = now_ns();
   for (erp::BusKeeper& bus : buses_) receive(bus);
-  watch_.step(judged_at_ns,
+  watch_.step(evaluation_ns,
               [this](int ecu, erp::EcuWatch::Event event) { report_ecu(ecu, event); });
 }
 
@@ -152,11 +157,11 @@ void GatewayNode::discover() {
   const auto is_identified = [this](int ecu) { return gateway_.is_identified(ecu); };
   if (std::ranges::all_of(ecus_, is_identified)) return;
   send(gateway_.discover());
-  if (++discovers_sent_ == 11) report_unanswered();
+  if (++discovers_sent_ == discovers_per_report) report_unanswered();
 }
 
-void GatewayNode::close_late_tick() {
-  if (!open_since_ns_ || node::monotonic_ns() - *open_since_ns_ < late_ns) return;
+void GatewayNode::close_overdue_tick() {
+  if (!open_since_ns_ || node::monotonic_ns() - *open_since_ns_ < tick_timeout_ns) return;
   gateway_.close_tick();
   publish_tick();
 }
@@ -168,7 +173,7 @@ void GatewayNode::publish_tick() {
   // Simulated time starts at the first tick, as in the simulator.
   node_.clock().advance(static_cast<std::int64_t>(frame.sequence - 1) * tick_ns);
   frame.stamp_ns = node_.clock().now_ns();
-  if (frame.sequence % clock_period == 1) publish_clock();
+  if (frame.sequence % clock_period_ticks == 1) publish_clock();
   frame_out_.publish_numbered(frame);
 }
 
@@ -176,7 +181,7 @@ void GatewayNode::publish_clock() {
   erp::Clock clock;
   const auto sequence = gateway_.frame().sequence;
   clock.stamp_ns = sequence ? static_cast<std::int64_t>(sequence - 1) * tick_ns : 0;
-  const auto elapsed_ns = node::monotonic_ns() - began_ns_;
+  const auto elapsed_ns = node::monotonic_ns() - activated_ns_;
   clock.real_time_factor =
       elapsed_ns > 0 ? static_cast<double>(clock.stamp_ns) / static_cast<double>(elapsed_ns) : 0;
   clock_out_.publish(clock);

@@ -34,7 +34,7 @@ class GatewayNode {
   void open(const Params& params, const erp::Robot& robot);
   void receive(erp::BusKeeper& bus);
   /// Publishes an incomplete tick, so that a silent ECU does not delay the data of the others.
-  void close_late_tick();
+  void close_overdue_tick();
   void on_tick_complete();
   void publish_tick();
   void publish_clock();
@@ -57,7 +57,7 @@ class GatewayNode {
 
   node::Node& node_;
   erp::BusRoutes routes_;
-  std::vector<erp::BusKeeper> buses_;  ///< one of routes_, or one for all (a trace)
+  std::vector<erp::BusKeeper> buses_;  ///< one per bus of routes_; a trace: one for all
   erp::Gateway gateway_;
   erp::EcuWatch watch_;
   std::vector<int> ecus_;
@@ -67,14 +67,14 @@ class GatewayNode {
   node::Publisher<erp::Clock>& clock_out_;
   node::Subscription<erp::EcuParameter>* parameter_in_;
   std::uint64_t end_sequence_;
-  erp::GatewayCounters reported_;
+  erp::GatewayCounters reported_counters_;
   std::vector<std::uint64_t> unsent_reported_, frames_before_;
-  std::int64_t began_ns_ = 0;
+  std::int64_t activated_ns_ = 0;
   std::optional<std::int64_t> open_since_ns_;  ///< when the first frame of the current tick arrived
-  std::int64_t counted_ns_ = 0;
+  std::int64_t last_counters_ns_ = 0;
   bool tick_pending_ = false;  ///< complete, not yet published
   std::uint64_t ticks_skipped_ = 0;
-  int discovers_sent_ = 0;  ///< DISCOVERs sent
+  int discovers_sent_ = 0;  ///< number of DISCOVER frames
 };
 
 }  // namespace can

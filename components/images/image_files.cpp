@@ -14,21 +14,21 @@ std::string image_name(const std::string& folder, const std::string& camera, std
 
 std::optional<sim::cameras::Image> read_image(const std::string& file, int width, int height) {
   if (!std::filesystem::exists(file)) return std::nullopt;
-  const cv::Mat read = cv::imread(file, cv::IMREAD_GRAYSCALE);
-  if (read.cols != width || read.rows != height)
+  const cv::Mat pixels = cv::imread(file, cv::IMREAD_GRAYSCALE);
+  if (pixels.cols != width || pixels.rows != height)
     throw std::invalid_argument(fmt::format("{}: {} × {} pixels, the camera's images have {} × {}",
-                                            file, read.cols, read.rows, width, height));
+                                            file, pixels.cols, pixels.rows, width, height));
   sim::cameras::Image image{width, height, {}};
-  image.pixels.reserve(read.total());
+  image.pixels.reserve(pixels.total());
   for (int v = 0; v < height; ++v)
-    image.pixels.insert(image.pixels.end(), read.ptr(v), read.ptr(v) + width);
+    image.pixels.insert(image.pixels.end(), pixels.ptr(v), pixels.ptr(v) + width);
   return image;
 }
 
 void write_image(const std::string& file, const sim::cameras::Image& image) {
-  const cv::Mat whole(image.height, image.width, CV_8UC1,
-                      const_cast<std::uint8_t*>(image.pixels.data()));  // read only
-  if (!cv::imwrite(file, whole))
+  const cv::Mat pixels(image.height, image.width, CV_8UC1,
+                       const_cast<std::uint8_t*>(image.pixels.data()));  // read only
+  if (!cv::imwrite(file, pixels))
     throw std::invalid_argument(file + ": cannot be written; check that the folder exists");
 }
 

@@ -56,12 +56,13 @@ class ImageSource {
  public:
   /// One image per camera, in the order of the cameras, of one instant.
   using Frame = std::vector<sim::cameras::Image>;
-  using Use = std::function<void(const Frame&, std::uint64_t sequence, std::int64_t stamp_ns)>;
+  using OnFrame = std::function<void(const Frame&, std::uint64_t sequence, std::int64_t stamp_ns)>;
 
   /// `config_file`: the config that names the folders. Throws std::invalid_argument if the body of
   /// a marker or bone does not exist.
   ImageSource(const ImageSourceParams& params, const sim::cameras::ViewConfig& view,
-              const std::string& config_file, const erp::Robot& robot, node::Node& node, Use use);
+              const std::string& config_file, const erp::Robot& robot, node::Node& node,
+              OnFrame on_frame);
 
  private:
   struct OnBody {
@@ -69,23 +70,23 @@ class ImageSource {
     sim::Vec3 from_m, to_m;
     double radius_m;
   };
-  void paint(const erp::JointState& truth);
+  void render(const erp::JointState& truth);
   void read_files();
   void save_frame();
-  void show(std::uint64_t sequence, std::int64_t stamp_ns);
+  void pass_frame(std::uint64_t sequence, std::int64_t stamp_ns);
 
   ImageSourceParams params_;
   std::vector<sim::cameras::CameraConfig> cameras_;
   node::Node& node_;
-  Use use_;
+  OnFrame on_frame_;
   joints::Names names_;
   sim::SkeletonModel model_;
   std::vector<OnBody> balls_, bones_;
   std::vector<sim::cameras::Painter> painters_;
   std::vector<sim::JointReading> truth_;
   Frame frame_;
-  std::int64_t painted_ns_ = 0;
-  std::uint64_t frames_ = 0;
+  std::int64_t rendered_ns_ = 0;
+  std::uint64_t frame_count_ = 0;
 };
 
 }  // namespace images

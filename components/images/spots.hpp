@@ -7,15 +7,15 @@ namespace images {
 
 /// A bright spot of an image.
 struct Spot {
-  sim::cameras::Pixel at;  ///< centre of brightness
+  sim::cameras::Pixel centre;  ///< centre of brightness
   double area_px = 0;
   bool at_edge = false;  ///< the spot touches the image's edge and may be cut off
 };
 
 struct SpotOptions {
   int threshold = 90;
-  double least_px = 6;    ///< smaller ones are noise
-  double most_px = 2000;  ///< larger ones are lamps
+  double min_area_px = 6;     ///< smaller ones are noise
+  double max_area_px = 2000;  ///< larger ones are lamps
 };
 
 /// The spots of an image, in no particular order.

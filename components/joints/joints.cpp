@@ -7,32 +7,35 @@
 namespace joints {
 namespace {
 
-bool turns(const erp::Joint& joint) {
+bool is_movable(const erp::Joint& joint) {
   return joint.type == erp::JointType::revolute || joint.type == erp::JointType::spherical;
 }
 
-/// Reads position and velocity of any sample. False: not finite, or a quaternion near zero.
+constexpr double min_squared_norm = 0.5;  // chosen: of a quaternion, nominally 1
+
+/// Reads position and velocity of a sample. False if not finite, or if a quaternion is near zero.
 template <class Sample>
 bool read_sample(const Sample& sample, sim::JointReading& reading) {
-  double size = 0;
+  double squared_norm = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     reading.position[i] = sample.position[i];
-    size += sample.position[i] * sample.position[i];
+    squared_norm += sample.position[i] * sample.position[i];
   }
-  double speed = 0;
+  double velocity_sum = 0;
   for (std::size_t i = 0; i < 3; ++i)
-    speed += std::abs(reading.velocity_rad_per_s[i] = sample.velocity_rad_per_s[i]);
-  const bool turned = reading.type != erp::JointType::spherical || size > 0.5;
-  return turned && std::isfinite(size) && std::isfinite(speed);
+    velocity_sum += std::abs(reading.velocity_rad_per_s[i] = sample.velocity_rad_per_s[i]);
+  const bool is_rotation =
+      reading.type != erp::JointType::spherical || squared_norm > min_squared_norm;
+  return is_rotation && std::isfinite(squared_norm) && std::isfinite(velocity_sum);
 }
 
 void extrapolate(sim::JointReading& reading, std::int64_t by_ns) {
-  constexpr std::int64_t farthest_ns = 50'000'000;  // chosen
-  if (by_ns == 0 || std::abs(by_ns) > farthest_ns) return;
+  constexpr std::int64_t max_extrapolation_ns = 50'000'000;  // chosen
+  if (by_ns == 0 || std::abs(by_ns) > max_extrapolation_ns) return;
   const double by_s = 1e-9 * static_cast<double>(by_ns);
-  auto way = reading.velocity_rad_per_s;
-  for (double& turn : way) turn *= by_s;
-  reading.position = sim::displaced(reading.type, reading.position, way);
+  auto rotation_rad = reading.velocity_rad_per_s;
+  for (double& angle : rotation_rad) angle *= by_s;
+  reading.position = sim::displaced(reading.type, reading.position, rotation_rad);
 }
 
 }  // namespace
@@ -41,15 +44,15 @@ Names::Names(const erp::Robot& robot) : joints_(robot.joints()) {}
 
 /// Calls read_one(j, sample) for each movable joint. Messages are mostly in the robot's own order.
 template <class Message, class Take>
-bool Names::each(const Message& message, Take read_one) const {
+bool Names::for_each_movable(const Message& message, Take read_one) const {
   const auto samples = erp::samples(message.joints);
   for (std::size_t j = 0; j < joints_.size(); ++j) {
-    if (!turns(joints_[j])) continue;
+    if (!is_movable(joints_[j])) continue;
     const auto matches = [&](const auto& sample) { return joints_[j].name == sample.name; };
-    const auto found = j < samples.size() && matches(samples[j])
+    const auto match = j < samples.size() && matches(samples[j])
                            ? samples.begin() + static_cast<long>(j)
                            : std::ranges::find_if(samples, matches);
-    if (found == samples.end() || !read_one(j, *found)) return false;
+    if (match == samples.end() || !read_one(j, *match)) return false;
   }
   return true;
 }
@@ -57,15 +60,14 @@ bool Names::each(const Message& message, Take read_one) const {
 bool Names::read(const erp::JointState& message, std::vector<sim::JointReading>& readings) const {
   readings.resize(joints_.size());
   for (std::size_t j = 0; j < joints_.size(); ++j) readings[j] = sim::initial_reading(joints_[j]);
-  return each(message,
-              [&](std::size_t j, const auto& sample) { return read_sample(sample, readings[j]); });
+  return for_each_movable(
+      message, [&](std::size_t j, const auto& sample) { return read_sample(sample, readings[j]); });
 }
 
 bool Names::read(const erp::JointTarget& message, std::vector<sim::JointMotion>& motions) const {
   motions.resize(joints_.size());
-  for (std::size_t j = 0; j < joints_.size(); ++j)
-    motions[j] = {sim::initial_reading(joints_[j]), {}};
-  return each(message, [&](std::size_t j, const auto& sample) {
+  for (std::size_t j = 0; j < joints_.size(); ++j) motions[j] = {sim::initial_reading(joints_[j]), {}};
+  return for_each_movable(message, [&](std::size_t j, const auto& sample) {
     double sum = 0;
     for (std::size_t i = 0; i < 3; ++i)
       sum += std::abs(motions[j].acceleration_rad_per_s2[i] = sample.acceleration_rad_per_s2[i]);
@@ -90,7 +92,7 @@ bool Names::read(const erp::JointTarget& message, std::int64_t at_ns,
 void Names::write(std::span<const sim::JointMotion> motions, erp::JointTarget& message) const {
   message.joints._length = 0;
   for (std::size_t j = 0; j < joints_.size(); ++j) {
-    if (!turns(joints_[j])) continue;
+    if (!is_movable(joints_[j])) continue;
     erp::JointTargetSample sample{};
     erp::assign(sample.name, joints_[j].name);
     sample.dof = static_cast<std::uint8_t>(sim::coordinates_of(joints_[j].type));
@@ -108,34 +110,39 @@ void Names::write(std::span<const sim::JointReading> readings, const Eigen::Vect
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const sim::JointReading& now = readings[j];
     const int first = model.first_of(static_cast<int>(j));
-    const int turns = std::min(sim::coordinates_of(now.type), 3);
+    const int dof = std::min(sim::coordinates_of(now.type), 3);
     if (first < 0 || (!known.empty() && !known[j])) continue;
     erp::JointStateSample sample{};
     erp::assign(sample.name, joints_[j].name);
-    sample.dof = static_cast<std::uint8_t>(turns);
+    sample.dof = static_cast<std::uint8_t>(dof);
     std::ranges::copy(now.position, sample.position);
     std::ranges::copy(now.velocity_rad_per_s, sample.velocity_rad_per_s);
-    for (int d = 0; d < turns; ++d) sample.variance_rad2[d] = variance_rad2[first + d];
+    for (int d = 0; d < dof; ++d) sample.variance_rad2[d] = variance_rad2[first + d];
     erp::append(message.joints, sample);
   }
 }
 
-double apart_rad(std::span<const sim::JointReading> a, std::span<const sim::JointMotion> b) {
-  double most = 0;
+double largest_rotation_rad(std::span<const sim::JointReading> a,
+                            std::span<const sim::JointMotion> b) {
+  double largest_rad = 0;
   for (std::size_t j = 0; j < a.size(); ++j) {
-    const auto way = sim::displacement(a[j].type, a[j].position, b[j].now.position);
-    most = std::max(most, std::hypot(way[0], way[1], way[2]));
+    const auto rotation = sim::displacement(a[j].type, a[j].position, b[j].now.position);
+    largest_rad = std::max(largest_rad, std::hypot(rotation[0], rotation[1], rotation[2]));
   }
-  return most;
+  return largest_rad;
 }
 
 sim::CatchUp catch_up(std::span<const sim::JointReading> now,
                       std::span<const sim::JointMotion> desired, double rad_per_s) {
-  constexpr double least_s = 0.2;  // chosen: shortest transition; also limits the deceleration
-  double top = 0;
-  for (const auto& joint : now) top = std::max(top, sim::vec(joint.velocity_rad_per_s).norm());
-  const double way_s = sim::minimum_jerk_top_speed * apart_rad(now, desired) / rad_per_s;
-  return {now, desired, std::max({way_s, least_s * top / rad_per_s, least_s})};
+  constexpr double min_duration_s =
+      0.2;  // chosen: shortest transition; also limits the deceleration
+  double top_rad_per_s = 0;
+  for (const auto& joint : now)
+    top_rad_per_s = std::max(top_rad_per_s, sim::vec(joint.velocity_rad_per_s).norm());
+  const double travel_s =
+      sim::minimum_jerk_top_speed * largest_rotation_rad(now, desired) / rad_per_s;
+  return {now, desired,
+          std::max({travel_s, min_duration_s * top_rad_per_s / rad_per_s, min_duration_s})};
 }
 
 }  // namespace joints

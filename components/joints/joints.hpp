@@ -31,20 +31,21 @@ class Names {
   bool read(const erp::JointTarget& message, std::int64_t at_ns,
             std::vector<sim::JointMotion>& motions) const;
   void write(std::span<const sim::JointMotion> motions, erp::JointTarget& message) const;
-  /// Writes a message with variances by coordinate of the model. Fixed joints are omitted, and
-  /// joints that are not `known`; if `known` is empty, all are.
+  /// Writes a message with variances by coordinate of the model. Fixed joints and joints
+  /// that are not `known` are omitted. If `known` is empty, all joints are known.
   void write(std::span<const sim::JointReading> readings, const Eigen::VectorXd& variance_rad2,
              const sim::SkeletonModel& model, erp::JointState& message,
              const std::vector<bool>& known = {}) const;
 
  private:
   template <class Message, class Take>
-  bool each(const Message& message, Take read_one) const;
+  bool for_each_movable(const Message& message, Take read_one) const;
   std::vector<erp::Joint> joints_;
 };
 
-/// Distance of two joint positions: the largest rotation of any joint, in rad.
-double apart_rad(std::span<const sim::JointReading> a, std::span<const sim::JointMotion> b);
+/// Largest rotation of a joint between two positions, in rad.
+double largest_rotation_rad(std::span<const sim::JointReading> a,
+                            std::span<const sim::JointMotion> b);
 
 /// Transition from the current joint motion to the desired motion, at about `rad_per_s` and in at
 /// least 0.2 s.

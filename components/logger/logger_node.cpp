@@ -15,9 +15,9 @@ namespace logger {
 namespace {
 
 // Queue length while the disk stalls; chosen: 40 s of the fastest topic, some seconds in lockstep.
-constexpr int depth = 20'000;
-constexpr std::int64_t take_ns = 2'000'000;
-constexpr std::int64_t discover_ns = 250'000'000;
+constexpr int queue_depth = 20'000;
+constexpr std::int64_t take_period_ns = 2'000'000;
+constexpr std::int64_t discover_period_ns = 250'000'000;
 
 std::string content(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
@@ -28,28 +28,29 @@ std::string content(const std::string& file) {
 }
 
 std::vector<recording::Attachment> attachments(const std::string& files) {
-  std::vector<recording::Attachment> all;
-  all.push_back({.name = "git_revision.txt", .media_type = "text/plain", .data = ERP_REVISION});
+  std::vector<recording::Attachment> attachments;
+  attachments.push_back(
+      {.name = "git_revision.txt", .media_type = "text/plain", .data = ERP_REVISION});
   std::stringstream list(files);
   for (std::string file; std::getline(list, file, ':');)
     if (!file.empty())
-      all.push_back({.name = file, .media_type = "application/xml", .data = content(file)});
-  return all;
+      attachments.push_back({.name = file, .media_type = "application/xml", .data = content(file)});
+  return attachments;
 }
 
 /// Renames an existing recording to the next free name: run.mcap becomes run.1.mcap.
-std::string keep_earlier(const std::string& file) {
+std::string rename_existing(const std::string& file) {
   namespace fs = std::filesystem;
   const fs::path path(file);
   if (!fs::exists(path)) return file;
   if (!fs::is_regular_file(path))
     throw std::invalid_argument("logger: " + file + " is not a regular file; give another name");
   for (int k = 1;; ++k) {
-    auto kept = path;
-    kept.replace_extension("." + std::to_string(k) + path.extension().string());
-    if (fs::exists(kept)) continue;
-    fs::rename(path, kept);
-    spdlog::info("renamed the existing recording to {}", kept.string());
+    auto new_path = path;
+    new_path.replace_extension("." + std::to_string(k) + path.extension().string());
+    if (fs::exists(new_path)) continue;
+    fs::rename(path, new_path);
+    spdlog::info("renamed the existing recording to {}", new_path.string());
     return file;
   }
 }
@@ -59,13 +60,13 @@ std::string keep_earlier(const std::string& file) {
 LoggerNode::LoggerNode(const Params& params, const erp::Robot& robot, node::Node& node)
     : node_(node),
       robot_(robot.name),
-      recorder_(keep_earlier(params.file), attachments(params.attach)),
+      recorder_(rename_existing(params.file), attachments(params.attach)),
       discovery_(node.participant(), node.wake()) {
   [this]<class... M>(std::type_identity<std::tuple<M...>>) {
     (add_known<M>(), ...);
   }(std::type_identity<erp::Messages>());
-  node.every(take_ns, [this] { take_all(); });
-  node.every(discover_ns, [this] { discover(); });
+  node.every(take_period_ns, [this] { take_all(); });
+  node.every(discover_period_ns, [this] { discover(); });
   node.on_deactivate([this] { close(); });
 }
 
@@ -84,18 +85,19 @@ void LoggerNode::add_known() {
 }
 
 void LoggerNode::add(const std::string& name, const dds_topic_descriptor_t& type,
-                     node::Descriptor owner) {
-  Topic topic{0, node::describe(type), nullptr, std::move(owner)};
+                     node::Descriptor descriptor) {
+  Topic topic{0, node::describe(type), nullptr, std::move(descriptor)};
   topic.handle = recorder_.add_topic(
       name, {topic.type.name(), recording::ros2msg_text(topic.type), idl_text(topic.type.name())});
   topic.reader =
-      std::make_unique<node::RawReader>(node_.participant(), node_.wake(), type, name, depth);
+      std::make_unique<node::RawReader>(node_.participant(), node_.wake(), type, name, queue_depth);
   topics_.emplace(name, std::move(topic));
 }
 
 void LoggerNode::discover() {
   for (const auto& endpoint : discovery_.endpoints()) {
-    if (!endpoint.writer || topics_.contains(endpoint.topic) || refused_.contains(endpoint.topic))
+    if (!endpoint.writer || topics_.contains(endpoint.topic) ||
+        unrecordable_.contains(endpoint.topic))
       continue;
     if (endpoint.topic == erp::Topic<erp::LifecycleCommand>::name) continue;
     const auto type = discovery_.type_of(endpoint.topic);
@@ -103,7 +105,7 @@ void LoggerNode::discover() {
     try {
       add(endpoint.topic, *type, type);
     } catch (const std::invalid_argument& error) {
-      refused_[endpoint.topic] = 1;
+      unrecordable_[endpoint.topic] = 1;
       node_.report(erp::Severity::warning, "", "not_recorded", error.what());
     }
   }
@@ -130,7 +132,8 @@ void LoggerNode::write(Topic& topic, const node::RawSample& raw) {
   recording::Sample sample;
   sample.writer = {writer, static_cast<std::size_t>(end - writer)};
   sample.publish_time_ns = static_cast<std::uint64_t>(header.stamp_ns.value_or(raw.source_ns));
-  // In lockstep all log times are simulated, since wall time in the same file would break their order.
+  // In lockstep all log times are simulated, since wall time in the same file would break their
+  // order.
   if (node_.clock().lockstep())
     node_.clock().advance(std::max(node_.clock().now_ns(), raw.source_ns));
   sample.log_time_ns = static_cast<std::uint64_t>(node_.clock().now_ns());

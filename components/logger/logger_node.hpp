@@ -36,7 +36,8 @@ class LoggerNode {
     std::unique_ptr<node::RawReader> reader;
     node::Descriptor descriptor;  ///< type discovered on the bus; null for known types
   };
-  void add(const std::string& topic, const dds_topic_descriptor_t& type, node::Descriptor owner);
+  void add(const std::string& topic, const dds_topic_descriptor_t& type,
+           node::Descriptor descriptor);
   template <class M>
   void add_known();
   void discover();
@@ -49,7 +50,8 @@ class LoggerNode {
   recording::Recorder recorder_;
   node::Discovery discovery_;
   std::map<std::string, Topic> topics_;
-  std::map<std::string, int> refused_;  ///< topics whose type cannot be recorded; reported once
+  std::map<std::string, int>
+      unrecordable_;  ///< topics whose type cannot be recorded; reported once
   std::uint64_t missing_reported_ = 0;
   bool closed_ = false;
 };

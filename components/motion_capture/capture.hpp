@@ -17,11 +17,11 @@ struct CaptureOptions {
   SpotOptions spots;
   StereoOptions stereo;
   JointFit::Options fit;
-  double gate_m = 0.03;
-  double lost_m = 0.003;
-  std::size_t min_markers = 3;  ///< smallest number of visible markers
-  double known_rad = 0.05;      ///< σ above which a joint counts as unknown; chosen
-  double follow = 0.3;          ///< gain g of the velocity update
+  double gate_m = 0.03;               ///< largest distance of a marker from its prediction; chosen
+  double lost_m = 0.003;              ///< largest RMS residual of a valid fit; chosen
+  std::size_t min_markers = 3;        ///< smallest number of visible markers
+  double max_known_sigma_rad = 0.05;  ///< σ above which a joint is unknown; chosen
+  double velocity_gain = 0.3;         ///< gain g of the velocity update
 };
 
 struct Captured {
@@ -41,8 +41,8 @@ class Capture {
 
   /// Processes both images of one instant, `dt_s` after the previous ones. nullopt: the robot was
   /// not found.
-  std::optional<Captured> see(const sim::cameras::Image& left, const sim::cameras::Image& right,
-                              double dt_s);
+  std::optional<Captured> process(const sim::cameras::Image& left, const sim::cameras::Image& right,
+                                  double dt_s);
   bool lost() const { return lost_; }
   JointFit& fit() { return fit_; }
 
@@ -51,9 +51,9 @@ class Capture {
   bool track(std::span<const StereoPoint> points);
   bool search(std::span<const StereoPoint> points);
   bool all_known() const;
-  bool fit_joints(const MarkerPoints& seen, std::vector<sim::JointReading> joints);
+  bool fit_joints(const MarkerPoints& measured, std::vector<sim::JointReading> joints);
   void update_velocities(const std::vector<bool>& known_before, double dt_s);
-  std::vector<std::optional<sim::BodyPose>> bodies(const MarkerPoints& seen) const;
+  std::vector<std::optional<sim::BodyPose>> bodies(const MarkerPoints& measured) const;
 
   std::array<sim::cameras::Camera, 2> cameras_;
   CaptureOptions options_;

@@ -17,30 +17,30 @@ std::vector<Marker> markers_of(std::span<const MarkerConfig> configs, const sim:
   return markers;
 }
 
-MarkerPoints follow(std::span<const Marker> markers, std::span<const BodyPose> expected,
-                    std::span<const StereoPoint> points, double gate_m) {
+MarkerPoints assign_nearest(std::span<const Marker> markers, std::span<const BodyPose> expected,
+                            std::span<const StereoPoint> points, double gate_m) {
   struct Pair {
-    double apart_m;
+    double distance_m;
     std::size_t marker, point;
   };
   std::vector<Pair> pairs;
   for (std::size_t m = 0; m < markers.size(); ++m) {
     const BodyPose& body = expected[markers[m].body];
-    const Vec3 at = body.position_m + body.rotation * markers[m].at_m;
+    const Vec3 predicted_m = body.position_m + body.rotation * markers[m].at_m;
     for (std::size_t p = 0; p < points.size(); ++p)
-      if (const double apart_m = (points[p].at_m - at).norm(); apart_m < gate_m)
-        pairs.push_back({apart_m, m, p});
+      if (const double distance_m = (points[p].at_m - predicted_m).norm(); distance_m < gate_m)
+        pairs.push_back({distance_m, m, p});
   }
-  std::ranges::sort(pairs, {}, &Pair::apart_m);
-  MarkerPoints seen(markers.size());
+  std::ranges::sort(pairs, {}, &Pair::distance_m);
+  MarkerPoints measured(markers.size());
   std::set<std::size_t> left, right;  // spots already assigned
   for (const Pair& pair : pairs) {
     const StereoPoint& point = points[pair.point];
-    if (seen[pair.marker] || left.contains(point.left) || right.contains(point.right)) continue;
-    seen[pair.marker] = point.at_m;
+    if (measured[pair.marker] || left.contains(point.left) || right.contains(point.right)) continue;
+    measured[pair.marker] = point.at_m;
     left.insert(point.left), right.insert(point.right);
   }
-  return seen;
+  return measured;
 }
 
 BodyPose rigid_pose(std::span<const Vec3> in_body_m, std::span<const Vec3> seen_m) {
@@ -48,8 +48,8 @@ BodyPose rigid_pose(std::span<const Vec3> in_body_m, std::span<const Vec3> seen_
   for (std::size_t k = 0; k < in_body_m.size(); ++k)
     from.col(static_cast<Eigen::Index>(k)) = in_body_m[k],
     to.col(static_cast<Eigen::Index>(k)) = seen_m[k];
-  const Eigen::Matrix4d moved = Eigen::umeyama(from, to, false);
-  return {moved.topLeftCorner<3, 3>(), moved.topRightCorner<3, 1>()};
+  const Eigen::Matrix4d transform = Eigen::umeyama(from, to, false);
+  return {transform.topLeftCorner<3, 3>(), transform.topRightCorner<3, 1>()};
 }
 
 namespace {
@@ -57,20 +57,20 @@ namespace {
 /// Exhaustive search of a body's markers among the points.
 class Search {
  public:
-  Search(std::span<const Vec3> in_body_m, std::span<const StereoPoint> points, double within_m)
-      : body_(in_body_m), points_(points), within_m_(within_m) {}
+  Search(std::span<const Vec3> in_body_m, std::span<const StereoPoint> points, double tolerance_m)
+      : body_(in_body_m), points_(points), tolerance_m_(tolerance_m) {}
 
-  std::optional<BodyPose> best() {
+  std::optional<BodyPose> find() {
     for (std::size_t i = 0; i + 2 < body_.size(); ++i)
       for (std::size_t j = i + 1; j + 1 < body_.size(); ++j)
         for (std::size_t k = j + 1; k < body_.size(); ++k) try_triple({i, j, k});
-    return best_;
+    return best_pose_;
   }
 
  private:
   bool fits(std::size_t a, std::size_t b, std::size_t p, std::size_t q) const {
     return std::abs((body_[a] - body_[b]).norm() - (points_[p].at_m - points_[q].at_m).norm()) <
-           2 * within_m_;
+           2 * tolerance_m_;
   }
   void try_triple(const std::array<std::size_t, 3>& m) {
     for (std::size_t p = 0; p < points_.size(); ++p)
@@ -83,33 +83,35 @@ class Search {
   }
   void try_pose(const std::array<Vec3, 3>& from, const std::array<Vec3, 3>& to) {
     const BodyPose pose = rigid_pose(from, to);
-    std::size_t met = 0;
-    double off_m = 0;
+    std::size_t matched = 0;
+    double distance_sum_m = 0;
     for (const Vec3& marker : body_) {
-      double nearest_m = within_m_;
+      double nearest_m = tolerance_m_;
       for (const StereoPoint& point : points_)
         nearest_m =
             std::min(nearest_m, (pose.position_m + pose.rotation * marker - point.at_m).norm());
-      met += nearest_m < within_m_;
-      off_m += nearest_m;
+      matched += nearest_m < tolerance_m_;
+      distance_sum_m += nearest_m;
     }
-    if (met < 3 || met < met_ || (met == met_ && off_m >= off_m_)) return;
-    met_ = met, off_m_ = off_m, best_ = pose;
+    if (matched < 3 || matched < most_matched_ ||
+        (matched == most_matched_ && distance_sum_m >= smallest_sum_m_))
+      return;
+    most_matched_ = matched, smallest_sum_m_ = distance_sum_m, best_pose_ = pose;
   }
 
   std::span<const Vec3> body_;
   std::span<const StereoPoint> points_;
-  double within_m_;
-  std::size_t met_ = 0;
-  double off_m_ = 0;
-  std::optional<BodyPose> best_;
+  double tolerance_m_;
+  std::size_t most_matched_ = 0;
+  double smallest_sum_m_ = 0;
+  std::optional<BodyPose> best_pose_;
 };
 
 }  // namespace
 
 std::optional<BodyPose> find_body(std::span<const Vec3> in_body_m,
-                                  std::span<const StereoPoint> points, double within_m) {
-  return Search(in_body_m, points, within_m).best();
+                                  std::span<const StereoPoint> points, double tolerance_m) {
+  return Search(in_body_m, points, tolerance_m).find();
 }
 
 }  // namespace capture

@@ -25,13 +25,14 @@ using MarkerPoints = std::vector<std::optional<sim::Vec3>>;
 
 /// Assigns each marker the point nearest to its predicted position, nearest pairs first, within
 /// `gate_m`. Each point and each spot of an image is assigned to one marker only.
-MarkerPoints follow(std::span<const Marker> markers, std::span<const sim::BodyPose> expected,
-                    std::span<const StereoPoint> points, double gate_m);
+MarkerPoints assign_nearest(std::span<const Marker> markers,
+                            std::span<const sim::BodyPose> expected,
+                            std::span<const StereoPoint> points, double gate_m);
 
 /// Finds a body without prediction, by the distances between its markers: the pose with the most
-/// markers that have a point within `within_m`; nullopt if fewer than three have one.
+/// markers that have a point within `tolerance_m`; nullopt if fewer than three have one.
 std::optional<sim::BodyPose> find_body(std::span<const sim::Vec3> in_body_m,
-                                       std::span<const StereoPoint> points, double within_m);
+                                       std::span<const StereoPoint> points, double tolerance_m);
 
 /// The pose that fits points of a body to measured points by least squares (Umeyama 1991). At least
 /// three points, not collinear.

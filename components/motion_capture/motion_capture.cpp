@@ -26,19 +26,19 @@ MotionCapture::MotionCapture(const Params& params, const erp::Robot& robot, node
                cameras_of(params), params.options),
       joints_out_(node.advertise<erp::JointState>()),
       bodies_out_(node.advertise<erp::BodyPose>()),
-      film_(params.film, params.view, params.place.file, robot, node,
-            [this](const auto& pair, std::uint64_t sequence, std::int64_t stamp_ns) {
-              see(pair, sequence, stamp_ns);
-            }) {}
+      image_source_(params.image_params, params.view, params.place.file, robot, node,
+                    [this](const auto& pair, std::uint64_t sequence, std::int64_t stamp_ns) {
+                      on_images(pair, sequence, stamp_ns);
+                    }) {}
 
-void MotionCapture::see(const images::ImageSource::Frame& pair, std::uint64_t sequence,
-                        std::int64_t stamp_ns) {
-  const double dt_s =
-      seen_ns_ ? 1e-9 * static_cast<double>(stamp_ns - *seen_ns_) : params_.film.period_s;
-  seen_ns_ = stamp_ns;
-  const auto found = capture_.see(pair[0], pair[1], dt_s);
+void MotionCapture::on_images(const images::ImageSource::Frame& pair, std::uint64_t sequence,
+                              std::int64_t stamp_ns) {
+  const double dt_s = last_stamp_ns_ ? 1e-9 * static_cast<double>(stamp_ns - *last_stamp_ns_)
+                                     : params_.image_params.period_s;
+  last_stamp_ns_ = stamp_ns;
+  const auto captured = capture_.process(pair[0], pair[1], dt_s);
   report_change();
-  if (found) publish(*found, sequence, stamp_ns);
+  if (captured) publish(*captured, sequence, stamp_ns);
 }
 
 void MotionCapture::report_change() {
@@ -51,21 +51,23 @@ void MotionCapture::report_change() {
                 : "the robot's markers are tracked");
 }
 
-void MotionCapture::publish(const Captured& found, std::uint64_t sequence, std::int64_t stamp_ns) {
+void MotionCapture::publish(const Captured& captured, std::uint64_t sequence,
+                            std::int64_t stamp_ns) {
   erp::JointState state;
   erp::assign(state.source, "motion_capture");
   state.stamp_ns = stamp_ns, state.sequence = sequence;
-  names_.write(found.joints, found.variance_rad2, capture_.fit().model(), state, found.known);
+  names_.write(captured.joints, captured.variance_rad2, capture_.fit().model(), state,
+               captured.known);
   joints_out_.publish_numbered(state);
   erp::BodyPose bodies;
   erp::assign(bodies.source, "motion_capture");
   bodies.stamp_ns = stamp_ns;
-  for (std::size_t b = 0; b < found.bodies.size(); ++b) {
-    if (!found.bodies[b]) continue;
-    const Eigen::Quaterniond q(found.bodies[b]->rotation);
+  for (std::size_t b = 0; b < captured.bodies.size(); ++b) {
+    if (!captured.bodies[b]) continue;
+    const Eigen::Quaterniond q(captured.bodies[b]->rotation);
     erp::BodyPoseSample sample{};
     erp::assign(sample.name, capture_.fit().tree().names[b]);
-    std::ranges::copy(found.bodies[b]->position_m, sample.position_m);
+    std::ranges::copy(captured.bodies[b]->position_m, sample.position_m);
     std::ranges::copy(std::array{q.w(), q.x(), q.y(), q.z()}, sample.orientation_wxyz);
     erp::append(bodies.bodies, sample);
   }

@@ -17,11 +17,11 @@ class MotionCapture {
   static constexpr bool in_background = true;
   struct Params {
     xml::Place place;
-    images::ImageSourceParams film;
+    images::ImageSourceParams image_params;
     CaptureOptions options;
     sim::cameras::ViewConfig view;
     void visit(auto& v) {
-      film.visit(v);
+      image_params.visit(v);
       v("threshold", options.spots.threshold,
         {xml::Range{1, 254}, "Brightness above which a pixel belongs to a spot, of 255; chosen."});
       v("gap_m", options.stereo.gap_m,
@@ -38,7 +38,8 @@ class MotionCapture {
   MotionCapture(const Params& params, const erp::Robot& robot, node::Node& node);
 
  private:
-  void see(const images::ImageSource::Frame& pair, std::uint64_t sequence, std::int64_t stamp_ns);
+  void on_images(const images::ImageSource::Frame& pair, std::uint64_t sequence,
+                 std::int64_t stamp_ns);
   void report_change();
   void publish(const Captured& found, std::uint64_t sequence, std::int64_t stamp_ns);
 
@@ -48,9 +49,9 @@ class MotionCapture {
   Capture capture_;
   node::Publisher<erp::JointState>& joints_out_;
   node::Publisher<erp::BodyPose>& bodies_out_;
-  std::optional<std::int64_t> seen_ns_;
+  std::optional<std::int64_t> last_stamp_ns_;
   bool was_lost_ = true;
-  images::ImageSource film_;  ///< last, because it uses the other members
+  images::ImageSource image_source_;  ///< last, because it uses the other members
 };
 
 }  // namespace capture

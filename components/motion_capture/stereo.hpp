@@ -14,8 +14,8 @@ namespace capture {
 using images::Spot, images::SpotOptions, images::find_spots;
 
 struct StereoOptions {
-  double gap_m = 0.003;
-  double near_m = 0.3, far_m = 6;  ///< from each camera
+  double gap_m = 0.003;                             ///< largest distance of matching rays; chosen
+  double min_distance_m = 0.3, max_distance_m = 6;  ///< of a point from each camera; chosen
 };
 
 struct StereoPoint {

@@ -12,11 +12,11 @@ namespace node {
 
 inline constexpr std::uint32_t max_builtin_samples = 1024;
 
-/// Sample state mask: only samples that were not read through that reader yet.
+/// Sample state mask: only samples that this reader has not read yet.
 inline constexpr std::uint32_t unread_only = DDS_NOT_READ_SAMPLE_STATE;
 
-/// Buffers for loaned samples. Their size is constant because DDS lends as many samples as it ever
-/// lent through a reader.
+/// Buffers for loaned samples. Their size is constant, because DDS always lends a reader as many
+/// samples as in its largest loan.
 struct BuiltinSamples {
   std::vector<void*> samples = std::vector<void*>(max_builtin_samples, nullptr);
   std::vector<dds_sample_info_t> info = std::vector<dds_sample_info_t>(max_builtin_samples);
@@ -43,15 +43,16 @@ inline void discard_not_alive(const Entity& reader, BuiltinSamples& buffers) {
 }
 
 /// Reads every alive instance without taking it; discards the others.
-template <class Sample, class Use>
-void for_each_alive(const Entity& reader, Use&& use,
+template <class Sample, class Visit>
+void for_each_alive(const Entity& reader, Visit&& visit,
                     std::uint32_t sample_states = DDS_ANY_SAMPLE_STATE) {
   BuiltinSamples buffers;
   discard_not_alive(reader, buffers);
   const std::size_t n = buffers.get(reader, dds_read_mask,
                                     sample_states | DDS_ANY_VIEW_STATE | DDS_ALIVE_INSTANCE_STATE);
   for (std::size_t k = 0; k < n; ++k)
-    if (buffers.info[k].valid_data) use(*static_cast<Sample*>(buffers.samples[k]), buffers.info[k]);
+    if (buffers.info[k].valid_data)
+      visit(*static_cast<Sample*>(buffers.samples[k]), buffers.info[k]);
   buffers.return_loan(reader, n);
 }
 

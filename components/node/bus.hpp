@@ -60,7 +60,8 @@ struct DataCallback {
 };
 /// A callback that only raises `wake`; the main loop then takes the samples.
 DataCallback wake_callback(Wake& wake);
-/// The listener is attached at creation, so no sample is missed. `callback` must outlive the reader.
+/// The listener is attached at creation, so no sample is missed. `callback` must outlive the
+/// reader.
 Entity make_reader(const Entity& participant, const Entity& topic, int depth,
                    const DataCallback& callback);
 /// The same for one of DDS's built-in topics.
@@ -82,8 +83,8 @@ class Writer {
     send(message);
   }
   /// Sends the message with its own sequence number; its stamp is also the DDS source timestamp.
-  /// If readers are so far behind that DDS has no room for the message for a second, it is not
-  /// sent; every reader then counts it as missing.
+  /// If slow readers leave DDS no room for the message within one second, it is not sent. Every
+  /// reader then counts it as missing.
   void send(const M& message) {
     const dds_return_t rc = dds_write_ts(
         writer_.id(), static_cast<const typename M::Wire*>(&message), message.stamp_ns);
@@ -114,21 +115,21 @@ class Reader {
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
-  /// Passes every available sample to `use`, oldest first, without heap allocation. True if there
-  /// was one.
-  template <class Use>
-  bool take(Use&& use) {
-    bool any = false;
+  /// Passes every available sample to `handle`, oldest first, without heap allocation. True if
+  /// there was a sample.
+  template <class Handle>
+  bool take(Handle&& handle) {
+    bool received_any = false;
     void* sample = static_cast<typename M::Wire*>(&message_);
     dds_sample_info_t info;
     while (dds_take(reader_.id(), &sample, &info, 1, 1) == 1) {
       if (!info.valid_data) continue;
       message_.attach_storage();
       count_gap(info.publication_handle, message_.sequence);
-      any = true;
-      use(std::as_const(message_));
+      received_any = true;
+      handle(std::as_const(message_));
     }
-    return any;
+    return received_any;
   }
   std::uint32_t matched() const {
     const dds_return_t n = dds_get_matched_publications(reader_.id(), nullptr, 0);
@@ -138,18 +139,18 @@ class Reader {
 
  private:
   void count_gap(dds_instance_handle_t writer, std::uint64_t sequence) {
-    for (auto& [handle, last] : last_) {
-      if (handle != writer) continue;
+    for (auto& [known_writer, last] : last_sequences_) {
+      if (known_writer != writer) continue;
       if (sequence > last + 1) missed_ += sequence - last - 1;
       last = sequence;
       return;
     }
-    last_.emplace_back(writer, sequence);
+    last_sequences_.emplace_back(writer, sequence);
   }
 
   DataCallback callback_;
   M message_{};
-  std::vector<std::pair<dds_instance_handle_t, std::uint64_t>> last_;
+  std::vector<std::pair<dds_instance_handle_t, std::uint64_t>> last_sequences_;
   std::uint64_t missed_ = 0;
   Entity topic_, reader_;  // last: samples may arrive as soon as the reader exists
 };

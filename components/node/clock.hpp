@@ -11,7 +11,7 @@ std::int64_t monotonic_ns();  ///< never steps back; deadlines and ages
 
 /// Timeout of the wait for a partner that is alive but silent in lockstep. Chosen: longer than any
 /// delay of a busy machine, because a timeout makes the run unrepeatable.
-inline constexpr std::int64_t lockstep_patience_ns = 5'000'000'000;
+inline constexpr std::int64_t lockstep_timeout_ns = 5'000'000'000;
 
 /// The current time of a component. In lockstep it is the stamp of the current frame, so ages are
 /// counted in simulated time and a repeated run is identical.

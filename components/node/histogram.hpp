@@ -3,8 +3,8 @@
 #include <bit>
 #include <cstdint>
 
-/// Histogram of durations in powers of two: bin k counts 2^k … 2^(k+1) µs, bin 0 counts all below
-/// 2 µs.
+/// Histogram of durations in powers of two: bin k counts 2^k … 2^(k+1) µs, bin 0 also counts
+/// shorter ones, the last bin also longer ones.
 namespace node {
 
 class Histogram {

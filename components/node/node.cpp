@@ -13,11 +13,13 @@ namespace node {
 namespace {
 
 constexpr std::int64_t heartbeat_ns = 100'000'000;
+constexpr unsigned long timer_slack_ns = 1000;
+constexpr std::size_t first_watch = 2;  // polled_ starts with the wake and the signals
 
-/// Makes SIGINT and SIGTERM readable on a descriptor and reduces the timer slack from 50 µs to 1 µs.
-/// Must run before DDS starts its threads, which inherit both settings.
+/// Makes SIGINT and SIGTERM readable on a descriptor and reduces the timer slack from 50 µs to 1
+/// µs. Must run before DDS starts its threads, which inherit both settings.
 int prepare_process() {
-  prctl(PR_SET_TIMERSLACK, 1000);
+  prctl(PR_SET_TIMERSLACK, timer_slack_ns);
   sigset_t set;
   sigemptyset(&set);
   sigaddset(&set, SIGINT);
@@ -128,10 +130,10 @@ void Node::count_step(std::int64_t stamp_ns) {
 }
 
 void Node::show(const std::string& name, double value) {
-  const auto same = [&](const erp::ComponentValue& v) { return name == v.name; };
-  const auto known = std::ranges::find_if(erp::samples(state_.values), same);
-  if (known != erp::samples(state_.values).end()) {
-    known->value = value;
+  const auto has_name = [&](const erp::ComponentValue& v) { return name == v.name; };
+  const auto existing = std::ranges::find_if(erp::samples(state_.values), has_name);
+  if (existing != erp::samples(state_.values).end()) {
+    existing->value = value;
     return;
   }
   erp::ComponentValue added{};
@@ -172,7 +174,7 @@ void Node::discover() {
 }
 
 void Node::finish_as_duplicate_of(const Peer& earlier) {
-  // Not published as an event: it would carry the name of the earlier process.
+  // Not published as an event, because the event would name the earlier process as its source.
   spdlog::error(
       "pid {} on {} already runs as \"{}\" of robot \"{}\"; end it, choose another --name, or "
       "set ERP_DOMAIN to an unused number",
@@ -187,12 +189,12 @@ void Node::heartbeat() {
   state_.links = 0, state_.missed = 0;
   for (const auto& port : ports_) state_.links += port->matched(), state_.missed += port->missed();
   discover();
-  if (heartbeat_last_ns_ && now_ns - heartbeat_last_ns_ > heartbeat_ns / 2) {
+  if (last_heartbeat_ns_ && now_ns - last_heartbeat_ns_ > heartbeat_ns / 2) {
     state_.rate_Hz = 1e9 * static_cast<double>(state_.steps - steps_at_heartbeat_) /
-                     static_cast<double>(now_ns - heartbeat_last_ns_);
-    heartbeat_last_ns_ = now_ns, steps_at_heartbeat_ = state_.steps;
+                     static_cast<double>(now_ns - last_heartbeat_ns_);
+    last_heartbeat_ns_ = now_ns, steps_at_heartbeat_ = state_.steps;
   }
-  if (!heartbeat_last_ns_) heartbeat_last_ns_ = now_ns;
+  if (!last_heartbeat_ns_) last_heartbeat_ns_ = now_ns;
   std::copy(age_.counts().begin(), age_.counts().end(), state_.age_bins);
   std::copy(jitter_.counts().begin(), jitter_.counts().end(), state_.jitter_bins);
   state_out_->publish(state_);
@@ -229,7 +231,7 @@ void Node::serve() {
   gate_.rethrow();
   if (finished_) return;
   for (std::size_t i = 0; i < watches_.size(); ++i)
-    if (polled_[i + 2].revents && active()) watches_[i].callback();
+    if (polled_[first_watch + i].revents && active()) watches_[i].callback();
   lifecycle_in_->poll(true);
   for (const auto& port : ports_)
     if (port.get() != lifecycle_in_ && port->where() == Where::in_loop) port->poll(active());

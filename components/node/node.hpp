@@ -49,17 +49,17 @@ class Node {
   template <class M>
   Publisher<M>& advertise() {
     const int depth = clock_.lockstep() ? lockstep_depth : 1;
-    return own(std::make_unique<Publisher<M>>(participant_, identity_, depth));
+    return add_port(std::make_unique<Publisher<M>>(participant_, identity_, depth));
   }
   /// `handler` is called only while the node is active.
   template <class M>
   Subscription<M>& subscribe(std::function<void(const M&)> handler, int depth = 1,
                              Where where = Where::on_arrival) {
-    return own(std::make_unique<Subscription<M>>(participant_, wake_, gate_, active_, where, depth,
-                                                 identity_, std::move(handler)));
+    return add_port(std::make_unique<Subscription<M>>(participant_, wake_, gate_, active_, where,
+                                                      depth, identity_, std::move(handler)));
   }
-  /// Calls `callback` each period of real time while active. Timer defines the handling of late
-  /// calls; skipped calls count as overruns.
+  /// Calls `callback` each period of real time while active. Timer defines the handling of
+  /// overdue calls; skipped calls count as overruns.
   void every(std::int64_t period_ns, std::function<void()> callback, std::int64_t catch_up_ns = 0);
   /// Calls `callback` while active whenever the descriptor is readable.
   void watch(int descriptor, std::function<void()> callback);
@@ -92,7 +92,7 @@ class Node {
   };
 
   template <class P>
-  P& own(std::unique_ptr<P> port) {
+  P& add_port(std::unique_ptr<P> port) {
     P& reference = *port;
     ports_.push_back(std::move(port));
     return reference;
@@ -116,7 +116,7 @@ class Node {
   Scheduling scheduling_;
   Identity identity_;
   Clock clock_;
-  int signals_;  // before the participant, whose threads inherit the mask
+  int signals_;  ///< before the participant, whose threads inherit the signal mask
   Peer self_;
   Wake wake_;
   Entity participant_;
@@ -137,7 +137,7 @@ class Node {
   Histogram age_, jitter_;
   LogThrottle throttle_;
   std::uint64_t steps_at_heartbeat_ = 0;
-  std::int64_t heartbeat_due_ns_ = 0, heartbeat_last_ns_ = 0;
+  std::int64_t heartbeat_due_ns_ = 0, last_heartbeat_ns_ = 0;
   std::int64_t last_step_ns_ = 0, last_interval_ns_ = 0;
   std::atomic<bool> finished_ = false;
   int exit_code_ = 0;

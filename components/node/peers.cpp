@@ -9,17 +9,22 @@
 namespace node {
 namespace {
 
-constexpr std::int64_t open_ns = 300'000'000;      // measured
-constexpr std::int64_t secure_ns = 1'000'000'000;  // measured: 0.3 … 0.6 s on a busy machine
+constexpr std::int64_t unsecured_discovery_ns = 300'000'000;  // measured
+constexpr std::int64_t secured_discovery_ns =
+    1'000'000'000;  // measured: 0.3 … 0.6 s on a busy machine
 
-bool same(const dds_guid_t& a, const dds_guid_t& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+bool same_guid(const dds_guid_t& a, const dds_guid_t& b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
 
 }  // namespace
 
-std::int64_t discovery_ns() { return security_folder().empty() ? open_ns : secure_ns; }
+std::int64_t discovery_ns() {
+  return security_folder().empty() ? unsecured_discovery_ns : secured_discovery_ns;
+}
 
-Peers::Peers(const Entity& participant, Wake& wake, Peer own)
-    : own_(std::move(own)),
+Peers::Peers(const Entity& participant, Wake& wake, Peer self)
+    : self_(std::move(self)),
       callback_(wake_callback(wake)),
       reader_(make_builtin_reader(participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, callback_)) {
   dds_get_guid(participant.id(), &own_key_);
@@ -44,22 +49,22 @@ void Peers::update_authenticated() {
 
 bool Peers::is_authenticated(const dds_guid_t& participant) const {
   return std::ranges::any_of(authenticated_,
-                             [&](const auto& key) { return same(key, participant); });
+                             [&](const auto& key) { return same_guid(key, participant); });
 }
 
 void Peers::discover() {
   update_authenticated();
   count_ = 0;
   earlier_duplicate_.reset();
-  known_.clear();
+  others_.clear();
   for_each_alive<dds_builtintopic_participant_t>(reader_, [&](const auto& sample, const auto&) {
-    if (same(sample.key, own_key_)) return;
+    if (same_guid(sample.key, own_key_)) return;
     if (!endpoints_.empty() && !is_authenticated(sample.key)) return;
     ++count_;
     const Peer peer = parse_peer(user_data(sample.qos));
     if (!may_be_alive(peer)) return;
-    if (peer.pid != own_.pid || peer.host != own_.host) known_.push_back(peer);
-    if (are_duplicates(peer, own_) && joined_before(peer, own_)) earlier_duplicate_ = peer;
+    if (peer.pid != self_.pid || peer.host != self_.host) others_.push_back(peer);
+    if (are_duplicates(peer, self_) && joined_before(peer, self_)) earlier_duplicate_ = peer;
   });
 }
 

@@ -14,12 +14,12 @@ namespace {
 constexpr dds_duration_t type_timeout = DDS_MSECS(200);
 
 /// The descriptor of a message of this project, null for any other type. Cyclone 0.10 cannot
-/// rebuild these from their type information: their key is a bounded string ("Unsupported").
+/// create these from their type information, because their key is a bounded string ("Unsupported").
 template <class... M>
-const dds_topic_descriptor_t* own_type(const std::string& name, std::tuple<M...>*) {
-  const dds_topic_descriptor_t* found = nullptr;
-  ((name == erp::Topic<M>::type->m_typename ? found = erp::Topic<M>::type : nullptr), ...);
-  return found;
+const dds_topic_descriptor_t* project_type(const std::string& name, std::tuple<M...>*) {
+  const dds_topic_descriptor_t* type = nullptr;
+  ((name == erp::Topic<M>::type->m_typename ? type = erp::Topic<M>::type : nullptr), ...);
+  return type;
 }
 
 }  // namespace
@@ -40,23 +40,24 @@ std::string Discovery::participant_name(const dds_guid_t& key) {
 }
 
 std::vector<Endpoint> Discovery::endpoints() {
-  std::vector<Endpoint> found;
+  std::vector<Endpoint> endpoints;
   for (const auto* reader : {&writers_, &readers_})
     for_each_alive<dds_builtintopic_endpoint_t>(*reader, [&](const auto& e, const auto& info) {
       if (std::strncmp(e.topic_name, "DCPS", 4) == 0) return;
-      found.push_back({e.topic_name, e.type_name, participant_name(e.participant_key),
-                       reader == &writers_, info.instance_handle});
+      endpoints.push_back({e.topic_name, e.type_name, participant_name(e.participant_key),
+                           reader == &writers_, info.instance_handle});
     });
-  return found;
+  return endpoints;
 }
 
 Descriptor Discovery::type_of(const std::string& topic) {
-  Descriptor found;
+  Descriptor type;
   for (const auto* reader : {&writers_, &readers_})
     for_each_alive<dds_builtintopic_endpoint_t>(*reader, [&](auto& e, const auto&) {
-      if (found || topic != e.topic_name) return;
-      if (const auto* own = own_type(e.type_name, static_cast<erp::Messages*>(nullptr))) {
-        found = Descriptor(own, [](const dds_topic_descriptor_t*) {});
+      if (type || topic != e.topic_name) return;
+      if (const auto* known_type =
+              project_type(e.type_name, static_cast<erp::Messages*>(nullptr))) {
+        type = Descriptor(known_type, [](const dds_topic_descriptor_t*) {});
         return;
       }
       const dds_typeinfo_t* type_info = nullptr;
@@ -65,11 +66,11 @@ Descriptor Discovery::type_of(const std::string& topic) {
       dds_topic_descriptor_t* descriptor = nullptr;
       if (dds_create_topic_descriptor(DDS_FIND_SCOPE_GLOBAL, participant_.id(), type_info,
                                       type_timeout, &descriptor) == DDS_RETCODE_OK)
-        found = Descriptor(descriptor, [](const dds_topic_descriptor_t* d) {
+        type = Descriptor(descriptor, [](const dds_topic_descriptor_t* d) {
           dds_delete_topic_descriptor(const_cast<dds_topic_descriptor_t*>(d));
         });
     });
-  return found;
+  return type;
 }
 
 RawReader::RawReader(const Entity& participant, Wake& wake, const dds_topic_descriptor_t& type,

@@ -35,8 +35,6 @@ class Discovery {
 
  private:
   std::string participant_name(const dds_guid_t& key);
-  template <class Use>
-  void for_each_endpoint(Use&& use);
 
   const Entity& participant_;
   DataCallback callback_;
@@ -56,11 +54,11 @@ class RawReader {
   RawReader(const Entity& participant, Wake& wake, const dds_topic_descriptor_t& type,
             const std::string& topic, int depth);
 
-  template <class Use>
-  bool take(Use&& use) {
-    bool any = false;
-    while (auto sample = next()) any = true, use(*sample);
-    return any;
+  template <class Handle>
+  bool take(Handle&& handle) {
+    bool taken_any = false;
+    while (auto sample = next()) taken_any = true, handle(*sample);
+    return taken_any;
   }
   std::uint32_t matched() const;
   /// Messages that DDS reports as lost because its queue was full.

@@ -17,10 +17,11 @@ class RealTimePriority {
  private:
   bool on_ = false;
   int policy_before_ = 0;
-  sched_param before_{};
+  sched_param parameters_before_{};
 };
 
-/// Whether this process is permitted to use it: as root, or with `ulimit -r` of 5 or more.
+/// True if this process is permitted to use real-time priority: as root, or with `ulimit -r` of 5
+/// or more.
 bool may_run_in_real_time();
 
 }  // namespace node

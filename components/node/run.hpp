@@ -14,11 +14,11 @@
 ///
 /// A component is a class with `Params`, a constructor (Params) or (Params, const erp::Robot&) and
 ///   Out step(const In& in, double dt_s, const node::Latest<More>&… more)
-/// `step` is called once for each In. Out is a message or std::optional of one. In lockstep the call
+/// `step` is called once per In. Out is a message or std::optional of one. In lockstep the call
 /// waits for the `More` messages that answer the same frame, so a repeated run is identical.
 /// Optional members:
 ///   bool accepts(const More&) const   selects messages when several components publish them
-///   asynchronous_joint_state          joint_state does not arrive once per frame; do not wait for it
+///   asynchronous_joint_state          joint_state is not one per frame; do not wait for it
 ///   in_background                     run at normal priority: the component is not in the control
 ///                                     loop. All others use real-time priority if permitted.
 /// A constructor (Params, const erp::Robot&, node::Node&) gives access to the node, for additional
@@ -32,12 +32,14 @@ struct Latest {
   bool received = false;
   double age_s = 0.0;  ///< time since arrival
   std::int64_t arrived_ns = 0;
-  std::int64_t period_ns = 0;  ///< difference of the last two stamps; 0 if fewer arrived
+  std::int64_t period_ns = 0;  ///< difference of the last two stamps; 0 before the second
   explicit operator bool() const { return received; }
   const M* operator->() const { return &message; }
 };
 
 namespace detail {
+
+inline constexpr int timeout_checks = 50;  // chosen: per lockstep timeout
 
 template <class Out>
 struct Unwrapped {
@@ -59,10 +61,10 @@ class Stepper {
     more_ports_ =
         std::make_tuple(&node.subscribe<More>([this](const More& m) { on_message(m); }, 1)...);
     node.subscribe<In>([this](const In& in) {
-      pending_ = in, waiting_ = true, since_ns_ = monotonic_ns(), try_step();
+      pending_ = in, is_pending_ = true, pending_since_ns_ = monotonic_ns(), try_step();
     });
     if (sizeof...(More) && node.clock().lockstep())
-      node.every(lockstep_patience_ns / 50, [this] { try_step(); });
+      node.every(lockstep_timeout_ns / timeout_checks, [this] { try_step(); });
   }
 
  private:
@@ -78,7 +80,7 @@ class Stepper {
     try_step();
   }
 
-  /// In lockstep: whether the input M belongs to the current frame or has no publisher.
+  /// In lockstep: true if the input M belongs to the current frame or has no publisher.
   template <class M>
   bool is_current() const {
     const auto& latest = std::get<Latest<M>>(more_);
@@ -101,18 +103,19 @@ class Stepper {
   }
 
   void try_step() {
-    if (!waiting_) return;
+    if (!is_pending_) return;
     if (node_.clock().lockstep() && !(is_current<More>() && ...) &&
-        monotonic_ns() - since_ns_ < lockstep_patience_ns)
+        monotonic_ns() - pending_since_ns_ < lockstep_timeout_ns)
       return;
-    waiting_ = false;
+    is_pending_ = false;
     node_.clock().advance(pending_.stamp_ns);
     [[maybe_unused]] const auto now_ns = node_.clock().now_ns();
     ((std::get<Latest<More>>(more_).age_s =
           1e-9 * static_cast<double>(now_ns - std::get<Latest<More>>(more_).arrived_ns)),
      ...);
-    const double dt_s = last_ns_ ? 1e-9 * static_cast<double>(pending_.stamp_ns - *last_ns_) : 0.0;
-    last_ns_ = pending_.stamp_ns;
+    const double dt_s =
+        last_stamp_ns_ ? 1e-9 * static_cast<double>(pending_.stamp_ns - *last_stamp_ns_) : 0.0;
+    last_stamp_ns_ = pending_.stamp_ns;
     publish((component_.*step_)(pending_, dt_s, std::get<Latest<More>>(more_)...));
     node_.count_step(pending_.stamp_ns);
   }
@@ -123,7 +126,7 @@ class Stepper {
     } else if (out) {
       send(*out);
     } else if (node_.clock().lockstep()) {
-      OutMessage empty;  // an empty answer: the other components do not have to wait
+      OutMessage empty;  // an empty answer, so that the other components do not wait
       send(empty);
     }
   }
@@ -147,9 +150,9 @@ class Stepper {
   std::tuple<Latest<More>...> more_;
   std::tuple<Subscription<More>*...> more_ports_;
   In pending_;
-  bool waiting_ = false;
-  std::int64_t since_ns_ = 0;
-  std::optional<std::int64_t> last_ns_;
+  bool is_pending_ = false;
+  std::int64_t pending_since_ns_ = 0;
+  std::optional<std::int64_t> last_stamp_ns_;
 };
 
 template <class T, class Out, class In, class... More>

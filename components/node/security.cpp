@@ -24,12 +24,12 @@ using Certificate = std::unique_ptr<X509, decltype(&X509_free)>;
 using Key = std::unique_ptr<EVP_PKEY, decltype(&EVP_PKEY_free)>;
 using Bio = std::unique_ptr<BIO, decltype(&BIO_free)>;
 
-constexpr auto remake =
+constexpr auto remake_folder =
     "write a new folder with erp security make, for all of this robot's machines";
 
-[[noreturn]] void refuse(const fs::path& place, const std::string& what,
+[[noreturn]] void refuse(const fs::path& place, const std::string& problem,
                          const std::string& remedy) {
-  throw std::invalid_argument(place.string() + ": " + what + "; " + remedy);
+  throw std::invalid_argument(place.string() + ": " + problem + "; " + remedy);
 }
 
 void check_files(const fs::path& folder) {
@@ -39,24 +39,24 @@ void check_files(const fs::path& folder) {
   for (const auto* name : {Files::authority, Files::identity, Files::identity_key,
                            Files::governance, Files::permissions}) {
     const fs::path file = folder / name;
-    if (!fs::exists(file)) refuse(file, "is missing", remake);
+    if (!fs::exists(file)) refuse(file, "is missing", remake_folder);
     if (!std::ifstream(file)) refuse(file, "cannot be read", "run as its owner");
   }
 }
 
 /// Anyone who can read a key can impersonate its owner.
 void check_key_permissions(const fs::path& key) {
-  struct stat found {};
-  if (stat(key.c_str(), &found) != 0 || !(found.st_mode & 077)) return;
+  struct stat status {};
+  if (stat(key.c_str(), &status) != 0 || !(status.st_mode & 077)) return;
   std::ostringstream mode;
-  mode << "is accessible to other users, mode 0" << std::oct << (found.st_mode & 0777);
+  mode << "is accessible to other users, mode 0" << std::oct << (status.st_mode & 0777);
   refuse(key, mode.str(), "chmod 600 " + key.string());
 }
 
 Certificate certificate_of(const fs::path& file) {
   const Bio text(BIO_new_file(file.c_str(), "r"), BIO_free);
   Certificate certificate(PEM_read_bio_X509(text.get(), nullptr, nullptr, nullptr), X509_free);
-  if (!certificate) refuse(file, "contains no certificate", remake);
+  if (!certificate) refuse(file, "contains no certificate", remake_folder);
   return certificate;
 }
 
@@ -71,7 +71,8 @@ std::string text_of(const ASN1_TIME* time) {
 void check_validity_period(const fs::path& file, const X509* certificate) {
   const ASN1_TIME *from = X509_get0_notBefore(certificate),
                   *until = X509_get0_notAfter(certificate);
-  if (X509_cmp_current_time(until) <= 0) refuse(file, "expired on " + text_of(until), remake);
+  if (X509_cmp_current_time(until) <= 0)
+    refuse(file, "expired on " + text_of(until), remake_folder);
   if (X509_cmp_current_time(from) > 0)
     refuse(file, "is not valid before " + text_of(from), "set the clock of this machine");
 }
@@ -82,12 +83,13 @@ void check_certificates(const fs::path& folder) {
   check_validity_period(folder / Files::authority, authority.get());
   check_validity_period(folder / Files::identity, identity.get());
   if (X509_verify(identity.get(), X509_get0_pubkey(authority.get())) != 1)
-    refuse(folder / Files::identity, "was not issued by the authority in this folder", remake);
+    refuse(folder / Files::identity, "was not issued by the authority in this folder",
+           remake_folder);
   const fs::path key_file = folder / Files::identity_key;
   const Bio text(BIO_new_file(key_file.c_str(), "r"), BIO_free);
   const Key key(PEM_read_bio_PrivateKey(text.get(), nullptr, nullptr, nullptr), EVP_PKEY_free);
   if (!key || X509_check_private_key(identity.get(), key.get()) != 1)
-    refuse(key_file, "is not the key of " + std::string(Files::identity), remake);
+    refuse(key_file, "is not the key of " + std::string(Files::identity), remake_folder);
 }
 
 /// Cyclone's plugins are in the folder of its library or, on Debian, in a subfolder of it.
@@ -111,10 +113,10 @@ std::string library(const std::string& name, const std::string& function) {
 }  // namespace
 
 std::string security_folder() {
-  const char* named = std::getenv("ERP_SECURITY");
-  if (!named) return "";
-  if (!*named) throw std::invalid_argument("ERP_SECURITY is empty; name a folder, or unset it");
-  return fs::absolute(named).lexically_normal();
+  const char* value = std::getenv("ERP_SECURITY");
+  if (!value) return "";
+  if (!*value) throw std::invalid_argument("ERP_SECURITY is empty; name a folder, or unset it");
+  return fs::absolute(value).lexically_normal();
 }
 
 std::string security_config() {

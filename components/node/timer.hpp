@@ -5,8 +5,8 @@
 /// Computes when a periodic call is due. Reads no clock.
 namespace node {
 
-/// Calls that are at most `catch_up_ns` late are made at twice the rate, so that the receiver can
-/// keep up. Calls that are later are skipped.
+/// Calls that are overdue by at most `catch_up_ns` are made at twice the rate, so that the
+/// receiver can keep up. Calls that are overdue by more are skipped.
 class Timer {
  public:
   Timer(std::int64_t period_ns, std::int64_t catch_up_ns, std::int64_t now_ns)
@@ -18,8 +18,8 @@ class Timer {
   std::int64_t next_ns() const { return std::max(due_ns_, ready_ns_); }
   /// Records the call at `now_ns` (≥ next_ns). Returns the number of calls skipped before it.
   std::int64_t take(std::int64_t now_ns) {
-    const auto too_late_ns = now_ns - due_ns_ - catch_up_ns_;
-    const auto skipped = std::max<std::int64_t>(0, too_late_ns / period_ns_);
+    const auto excess_delay_ns = now_ns - due_ns_ - catch_up_ns_;
+    const auto skipped = std::max<std::int64_t>(0, excess_delay_ns / period_ns_);
     due_ns_ += (skipped + 1) * period_ns_;
     ready_ns_ = now_ns + period_ns_ / 2;
     return skipped;

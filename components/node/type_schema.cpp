@@ -1,7 +1,7 @@
 #include "components/node/type_schema.hpp"
 
 #include <dds/ddsi/ddsi_xqos.h>
-// (ddsi_xqos.h defines what the headers below use)
+// The headers below use definitions of ddsi_xqos.h.
 #include <dds/ddsi/ddsi_typelib.h>
 #include <dds/ddsi/ddsi_xt_impl.h>
 
@@ -28,7 +28,7 @@ struct FreeTypeinfo {
   void operator()(ddsi_typeinfo_t* info) const { ddsi_typeinfo_fini(info), dds_free(info); }
 };
 
-ddsi_sertype_cdr_data blob(const dds_type_meta_ser& meta) {
+ddsi_sertype_cdr_data serialized(const dds_type_meta_ser& meta) {
   return {meta.sz, const_cast<std::uint8_t*>(meta.data)};
 }
 
@@ -75,21 +75,22 @@ class Describer {
     if (!type.type_mapping.data || !type.type_mapping.sz)
       throw std::invalid_argument(
           name_ + ": the descriptor has no type information; compile its IDL without -t");
-    const auto mapping = blob(type.type_mapping), information = blob(type.type_information);
+    const auto mapping = serialized(type.type_mapping),
+               information = serialized(type.type_information);
     map_.reset(ddsi_typemap_deser(&mapping));
     info_.reset(ddsi_typeinfo_deser(&information));
     if (!map_ || !info_) throw std::invalid_argument(name_ + ": the type information is damaged");
   }
 
-  recording::TypeDescription run() {
+  recording::TypeDescription describe() {
     structure(info_->x.complete.typeid_with_size.type_id);
     recording::check(type_);
     return std::move(type_);
   }
 
  private:
-  [[noreturn]] void refuse(const std::string& why) const {
-    throw std::invalid_argument(name_ + ": " + place_ + why +
+  [[noreturn]] void refuse(const std::string& reason) const {
+    throw std::invalid_argument(name_ + ": " + place_ + reason +
                                 ", which a ROS 2 message cannot represent; record it as IDL alone");
   }
 
@@ -107,12 +108,12 @@ class Describer {
 
   /// Adds the structure `id` if it is new; returns its index.
   std::size_t structure(const TypeId& id) {
-    const TypeObject& found = object(id);
-    if (found._d != DDS_XTypes_TK_STRUCTURE) refuse("is not a struct");
-    const auto& from = found._u.struct_type;
-    const auto [known, is_new] = indices_.try_emplace(&found, type_.structures.size());
-    if (!is_new) return known->second;
-    const std::size_t index = known->second;
+    const TypeObject& type_object = object(id);
+    if (type_object._d != DDS_XTypes_TK_STRUCTURE) refuse("is not a struct");
+    const auto& from = type_object._u.struct_type;
+    const auto [entry, is_new] = indices_.try_emplace(&type_object, type_.structures.size());
+    if (!is_new) return entry->second;
+    const std::size_t index = entry->second;
     type_.structures.push_back({recording::ros_name(from.header.detail.type_name), {}});
     place_ = std::string(from.header.detail.type_name) + " ";
     if (!(from.struct_flags & DDS_XTypes_IS_FINAL)) refuse("is not @final");
@@ -135,7 +136,7 @@ class Describer {
     field.name = from.detail.name;
     if (from.detail.ann_builtin && from.detail.ann_builtin->unit)
       field.unit = from.detail.ann_builtin->unit;
-    take(from.common.member_type_id, field);
+    describe_type(from.common.member_type_id, field);
     return field;
   }
 
@@ -158,7 +159,7 @@ class Describer {
     field.string_bound = bound;
   }
 
-  void take(const TypeId& id, Field& field) {
+  void describe_type(const TypeId& id, Field& field) {
     if (const auto kind = primitive(id._d)) {
       field.kind = *kind;
       return;
@@ -170,16 +171,16 @@ class Describer {
         return string(field, id._u.string_ldefn.bound);
       case DDS_XTypes_TI_PLAIN_SEQUENCE_SMALL:
         set_count(field, Count::sequence, id._u.seq_sdefn.bound);
-        return take(*id._u.seq_sdefn.element_identifier, field);
+        return describe_type(*id._u.seq_sdefn.element_identifier, field);
       case DDS_XTypes_TI_PLAIN_SEQUENCE_LARGE:
         set_count(field, Count::sequence, id._u.seq_ldefn.bound);
-        return take(*id._u.seq_ldefn.element_identifier, field);
+        return describe_type(*id._u.seq_ldefn.element_identifier, field);
       case DDS_XTypes_TI_PLAIN_ARRAY_SMALL:
         array(field, id._u.array_sdefn.array_bound_seq);
-        return take(*id._u.array_sdefn.element_identifier, field);
+        return describe_type(*id._u.array_sdefn.element_identifier, field);
       case DDS_XTypes_TI_PLAIN_ARRAY_LARGE:
         array(field, id._u.array_ldefn.array_bound_seq);
-        return take(*id._u.array_ldefn.element_identifier, field);
+        return describe_type(*id._u.array_ldefn.element_identifier, field);
       case DDS_XTypes_EK_COMPLETE:
         return take_object(id, field);
       default:
@@ -188,26 +189,26 @@ class Describer {
   }
 
   void take_object(const TypeId& id, Field& field) {
-    const TypeObject& found = object(id);
-    switch (found._d) {
+    const TypeObject& type_object = object(id);
+    switch (type_object._d) {
       case DDS_XTypes_TK_STRUCTURE:
         field.kind = Kind::structure;
         field.structure = structure(id);
         return;
       case DDS_XTypes_TK_ALIAS:
-        return take(found._u.alias_type.body.common.related_type, field);
+        return describe_type(type_object._u.alias_type.body.common.related_type, field);
       case DDS_XTypes_TK_ENUM:
-        field.kind = unsigned_of(found._u.enumerated_type.header.common.bit_bound);
+        field.kind = unsigned_of(type_object._u.enumerated_type.header.common.bit_bound);
         return;
       case DDS_XTypes_TK_BITMASK:
-        field.kind = unsigned_of(found._u.bitmask_type.header.common.bit_bound);
+        field.kind = unsigned_of(type_object._u.bitmask_type.header.common.bit_bound);
         return;
       case DDS_XTypes_TK_SEQUENCE:
-        set_count(field, Count::sequence, found._u.sequence_type.header.common.bound);
-        return take(found._u.sequence_type.element.common.type, field);
+        set_count(field, Count::sequence, type_object._u.sequence_type.header.common.bound);
+        return describe_type(type_object._u.sequence_type.element.common.type, field);
       case DDS_XTypes_TK_ARRAY:
-        array(field, found._u.array_type.header.common.bound_seq);
-        return take(found._u.array_type.element.common.type, field);
+        array(field, type_object._u.array_type.header.common.bound_seq);
+        return describe_type(type_object._u.array_type.element.common.type, field);
       default:
         refuse("is a union, a bitset or a map");
     }
@@ -223,7 +224,7 @@ class Describer {
 }  // namespace
 
 recording::TypeDescription describe(const dds_topic_descriptor_t& type) {
-  return Describer(type).run();
+  return Describer(type).describe();
 }
 
 }  // namespace node

@@ -15,7 +15,7 @@ Wake::~Wake() { close(descriptor_); }
 
 void Wake::raise() {
   const std::uint64_t one = 1;
-  // The write fails only if the counter is full; the loop is then awake already.
+  // The write fails only if the counter is full. The descriptor is then readable anyway.
   [[maybe_unused]] const auto written = write(descriptor_, &one, sizeof one);
 }
 

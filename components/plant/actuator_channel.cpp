@@ -8,7 +8,7 @@
 namespace plant {
 namespace {
 
-/// Speed at which slack is wound up; chosen.
+/// Speed at which slack line is wound up; chosen.
 constexpr double take_up_m_per_s = 0.010;
 
 /// Faults caused by missing or corrupt host messages; cleared once messages arrive again.
@@ -31,7 +31,7 @@ ActuatorChannel::ActuatorChannel(const erp::Actuator& actuator, const erp::Motor
       limits_(actuator, motor, sensors),
       max_line_speed_m_per_s_(actuator.max_line_speed_m_per_s.value_or(RateLimiter::unlimited)),
       max_tension_rate_N_per_s_(actuator.max_tension_rate_N_per_s.value_or(RateLimiter::unlimited)),
-      tendon_(watch),
+      tendon_monitor_(watch),
       slack_N_(watch.slack_N) {}
 
 Checked ActuatorChannel::receive(std::string_view controller, std::int32_t priority, erp::Mode mode,
@@ -52,8 +52,8 @@ void ActuatorChannel::observe(ecu_state state, std::uint8_t fault, std::int32_t 
                               double tension_N, std::int64_t now_ns) {
   if (state == ECU_STATE_ARMED && state_ != ECU_STATE_ARMED) {
     armed_ns_ = now_ns;
-    approaching_ = true;
-    limited_mode_ = erp::Mode::off;
+    is_approaching_ = true;
+    rate_limited_mode_ = erp::Mode::off;
   }
   state_ = state;
   fault_ = fault;
@@ -72,12 +72,12 @@ Demand ActuatorChannel::decide(std::int64_t now_ns, std::int64_t stale_ns, doubl
   priority_ = command ? command->priority : 0;
   const bool off_commanded = command && command->mode == erp::Mode::off;
   if (limb_degraded && !off_commanded) command = nullptr;
-  if (!command) limited_mode_ = erp::Mode::off, approaching_ = true;
+  if (!command) rate_limited_mode_ = erp::Mode::off, is_approaching_ = true;
   if (state_ != ECU_STATE_RUNNING || command) active_safe_action_ = erp::SafeAction::none;
-  if (off_commanded) tendon_.reset();
-  if (state_ != ECU_STATE_RUNNING) tendon_.reset_unless_snapped();
-  const bool snapped = tendon_.state() == TendonState::snapped;
-  if (tendon_.state() != TendonState::slack) taking_up_ = false;
+  if (off_commanded) tendon_monitor_.reset();
+  if (state_ != ECU_STATE_RUNNING) tendon_monitor_.reset_unless_snapped();
+  const bool snapped = tendon_monitor_.state() == TendonState::snapped;
+  if (tendon_monitor_.state() != TendonState::slack) is_taking_up_ = false;
   switch (state_) {
     case ECU_STATE_BOOT:
     case ECU_STATE_COUNT:
@@ -86,10 +86,12 @@ Demand ActuatorChannel::decide(std::int64_t now_ns, std::int64_t stale_ns, doubl
       return {command && !off_commanded && !snapped ? ECU_REQUEST_ARM : ECU_REQUEST_OFF, 0};
     case ECU_STATE_ARMED:
       if (!command || off_commanded || snapped) return {};
-      return command->received_ns > armed_ns_ ? follow(*command, dt_s) : Demand{ECU_REQUEST_ARM, 0};
+      return command->received_ns > armed_ns_ ? follow_command(*command, dt_s)
+                                              : Demand{ECU_REQUEST_ARM, 0};
     case ECU_STATE_RUNNING:
       if (off_commanded) return {};
-      return supervise_tendon(command ? follow(*command, dt_s) : apply_safe_action(), now_ns, dt_s);
+      return supervise_tendon(command ? follow_command(*command, dt_s) : apply_safe_action(),
+                              now_ns, dt_s);
     case ECU_STATE_FAULT:
       if (is_timeout_fault(fault_) || off_commanded) return {ECU_REQUEST_CLEAR, fault_};
       return {ECU_REQUEST_OFF, 0};
@@ -102,29 +104,29 @@ Demand ActuatorChannel::decide(std::int64_t now_ns, std::int64_t stale_ns, doubl
 double ActuatorChannel::rate_per_s(erp::Mode mode) const {
   if (mode == erp::Mode::force) return max_tension_rate_N_per_s_;
   if (mode != erp::Mode::length) return RateLimiter::unlimited;
-  return approaching_ ? std::min(approach_m_per_s_, max_line_speed_m_per_s_)
-                      : max_line_speed_m_per_s_;
+  return is_approaching_ ? std::min(approach_m_per_s_, max_line_speed_m_per_s_)
+                         : max_line_speed_m_per_s_;
 }
 
 /// A new mode starts from the measured line length or tension.
 double ActuatorChannel::rate_limited(const ControllerCommand& command, double dt_s) {
-  if (limited_mode_ != command.mode)
+  if (rate_limited_mode_ != command.mode)
     rate_limiter_.reset(command.mode == erp::Mode::force
                             ? tension_N_
                             : units_.line_m(units_.shaft_rad(encoder_counts_)));
-  limited_mode_ = command.mode;
+  rate_limited_mode_ = command.mode;
   return rate_limiter_.step(command.reference, rate_per_s(command.mode), dt_s);
 }
 
-Demand ActuatorChannel::follow(const ControllerCommand& command, double dt_s) {
+Demand ActuatorChannel::follow_command(const ControllerCommand& command, double dt_s) {
   const double reference = rate_limited(command, dt_s);
   const bool reached = reference == command.reference;
-  if (!reached && !(approaching_ && command.mode == erp::Mode::length)) {
+  if (!reached && !(is_approaching_ && command.mode == erp::Mode::length)) {
     ++limited_;
     reason_ = command.mode == erp::Mode::force ? "limited to max_tension_rate_N_per_s"
                                                : "limited to max_line_speed_m_per_s";
   }
-  if (reached && command.mode == erp::Mode::length) approaching_ = false;
+  if (reached && command.mode == erp::Mode::length) is_approaching_ = false;
   return {sim::EcuUnits::request(command.mode), units_.setpoint(command.mode, reference)};
 }
 
@@ -144,15 +146,15 @@ Demand ActuatorChannel::apply_safe_action() {
 }
 
 /// A length law stops at its reference; the other laws wind until the tendon pulls back.
-bool ActuatorChannel::pulls(const Demand& demand) const {
-  const double slack =
+bool ActuatorChannel::winds_until_taut(const Demand& demand) const {
+  const double slack_setpoint =
       demand.request == ECU_REQUEST_FORCE ? units_.setpoint(erp::Mode::force, 2 * slack_N_) : 0;
-  return demand.request != ECU_REQUEST_LENGTH && demand.setpoint > slack;
+  return demand.request != ECU_REQUEST_LENGTH && demand.setpoint > slack_setpoint;
 }
 
 Demand ActuatorChannel::supervise_tendon(Demand demand, std::int64_t now_ns, double dt_s) {
   const double line_m = units_.line_m(units_.shaft_rad(encoder_counts_));
-  switch (tendon_.update(tension_N_, line_m, pulls(demand), now_ns)) {
+  switch (tendon_monitor_.update(tension_N_, line_m, winds_until_taut(demand), now_ns)) {
     case TendonState::taut:
       return demand;
     case TendonState::slack:
@@ -164,8 +166,8 @@ Demand ActuatorChannel::supervise_tendon(Demand demand, std::int64_t now_ns, dou
 }
 
 Demand ActuatorChannel::take_up(double line_m, double dt_s) {
-  if (!taking_up_) take_up_line_m_ = line_m;
-  taking_up_ = true;
+  if (!is_taking_up_) take_up_line_m_ = line_m;
+  is_taking_up_ = true;
   take_up_line_m_ -= take_up_m_per_s * dt_s;
   return {ECU_REQUEST_LENGTH, units_.setpoint(erp::Mode::length, take_up_line_m_)};
 }

@@ -18,8 +18,8 @@
 ///   idle        off                      arm
 ///   armed       off                      commanded mode, if the command arrived after arming
 ///   running     safe action              commanded mode, rate limits of robot.xml
-///   …           and limb degraded        safe action
-///   …           and tendon slack         winds the slack up slowly; when snapped, off until the
+///     if the limb is degraded            safe action
+///     if the tendon is slack             winds the slack up slowly; when snapped, off until the
 ///                                        owner commands mode off
 ///   fault       clear if the host was silent, otherwise off until the owner commands mode off
 namespace plant {
@@ -77,18 +77,18 @@ class ActuatorChannel {
   std::int32_t priority() const { return priority_; }
   /// The active safe action; none while there is an owner or the ECU is off.
   erp::SafeAction safe_action() const { return active_safe_action_; }
-  TendonState tendon() const { return tendon_.state(); }
+  TendonState tendon() const { return tendon_monitor_.state(); }
   std::uint32_t limited() const { return limited_; }
   std::uint32_t refused() const { return refused_; }
   std::string_view reason() const { return reason_; }
 
  private:
-  Demand follow(const ControllerCommand& command, double dt_s);
+  Demand follow_command(const ControllerCommand& command, double dt_s);
   double rate_per_s(erp::Mode mode) const;
   double rate_limited(const ControllerCommand& command, double dt_s);
   Demand apply_safe_action();
   Demand supervise_tendon(Demand demand, std::int64_t now_ns, double dt_s);
-  bool pulls(const Demand& demand) const;
+  bool winds_until_taut(const Demand& demand) const;
   Demand take_up(double line_m, double dt_s);
 
   std::string name_;
@@ -104,11 +104,11 @@ class ActuatorChannel {
   std::int64_t armed_ns_ = 0;
   double max_line_speed_m_per_s_, max_tension_rate_N_per_s_;
   RateLimiter rate_limiter_;
-  erp::Mode limited_mode_ = erp::Mode::off;  ///< mode of rate_limiter_
-  bool approaching_ = false;
-  TendonMonitor tendon_;
+  erp::Mode rate_limited_mode_ = erp::Mode::off;  ///< mode of rate_limiter_
+  bool is_approaching_ = false;
+  TendonMonitor tendon_monitor_;
   double slack_N_, tension_N_ = 0, take_up_line_m_ = 0;
-  bool taking_up_ = false;
+  bool is_taking_up_ = false;
   erp::SafeAction active_safe_action_ = erp::SafeAction::none;
   std::int32_t priority_ = 0;
   std::uint32_t limited_ = 0, refused_ = 0;

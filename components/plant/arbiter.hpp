@@ -6,7 +6,7 @@
 #include "interfaces/values.hpp"
 
 /// Selects the owner of one actuator: of the controllers whose last command is not stale, the one
-/// with the highest priority; among equal priorities, the present owner.
+/// with the highest priority; among equal priorities, the current owner.
 namespace plant {
 
 /// The last command of one controller for one actuator.

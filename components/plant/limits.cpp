@@ -17,7 +17,7 @@ Limits::Limits(const erp::Actuator& actuator, const erp::MotorType& motor,
                                 std::to_string(sensors.tension_range_N) + " N");
 }
 
-static Checked within(double reference, double min, double max, std::string_view reason) {
+static Checked check_range(double reference, double min, double max, std::string_view reason) {
   if (!std::isfinite(reference)) return {Verdict::refused, 0, "reference is not a number"};
   if (reference > 2 * max || reference < 2 * min)
     return {Verdict::refused, 0, "reference is far out of range"};
@@ -31,13 +31,14 @@ Checked Limits::check(erp::Mode mode, double reference) const {
     case erp::Mode::off:
       return {Verdict::accepted, 0, {}};
     case erp::Mode::voltage:
-      return within(reference, -supply_V_, supply_V_, "limited to the supply voltage");
+      return check_range(reference, -supply_V_, supply_V_, "limited to the supply voltage");
     case erp::Mode::length:
-      return within(reference, -max_line_m, max_line_m, "limited to the line on the spindle");
+      return check_range(reference, -max_line_m, max_line_m, "limited to the line on the spindle");
     case erp::Mode::current:
-      return within(reference, -current_A_, current_A_, "limited to the motor's current limit");
+      return check_range(reference, -current_A_, current_A_,
+                         "limited to the motor's current limit");
     case erp::Mode::force:
-      return within(reference, 0, tension_N_, "limited to max_tension_N");
+      return check_range(reference, 0, tension_N_, "limited to max_tension_N");
   }
   return {Verdict::refused, 0, "unknown mode"};
 }

@@ -1,5 +1,5 @@
-// The notices of the plant, one per change: owner, limited or refused references, ECU faults, tendons,
-// limbs.
+// The notices of the plant, one per change: owner, limited or refused references, ECU faults,
+// tendons, limbs.
 #include <algorithm>
 
 #include "components/plant/plant.hpp"
@@ -8,8 +8,8 @@
 namespace plant {
 namespace {
 
-constexpr std::size_t min_group = 3;  // chosen
-constexpr std::size_t max_names = 3;  // chosen
+constexpr std::size_t min_group = 3;  // chosen: equal notices that are merged
+constexpr std::size_t max_names = 3;  // chosen: names in a merged notice
 
 bool differ_in_subject_only(const Notice& a, const Notice& b) {
   return a.severity == b.severity && a.code == b.code && a.text == b.text && !a.subject.empty() &&
@@ -25,25 +25,25 @@ std::string names_of(const std::vector<Notice>& group) {
 
 Notice merge(const std::vector<Notice>& group, std::size_t actuators) {
   Notice merged = group.front();
-  const bool all = group.size() == actuators;
-  if (!all) merged.text += " (" + names_of(group) + ")";
-  merged.subject = (all ? "all " : "") + std::to_string(group.size()) + " actuators";
+  const bool is_all = group.size() == actuators;
+  if (!is_all) merged.text += " (" + names_of(group) + ")";
+  merged.subject = (is_all ? "all " : "") + std::to_string(group.size()) + " actuators";
   return merged;
 }
 
-std::string owner_text(const ActuatorChannel& channel, const std::string& before) {
+std::string owner_text(const ActuatorChannel& channel, const std::string& previous_owner) {
   if (!channel.owner().empty()) return "driven by " + std::string(channel.owner());
   switch (channel.safe_action()) {
     case erp::SafeAction::hold:
-      return before + " became stale; holding the line length";
+      return previous_owner + " became stale; holding the line length";
     case erp::SafeAction::relax:
-      return before + " became stale; relaxing the tendon";
+      return previous_owner + " became stale; relaxing the tendon";
     case erp::SafeAction::damp:
-      return before + " became stale; damping";
+      return previous_owner + " became stale; damping";
     case erp::SafeAction::none:
       break;
   }
-  return before + " became stale";
+  return previous_owner + " became stale";
 }
 
 /// The reason why a reference was limited or refused; names the owner if its priority decided.
@@ -111,7 +111,8 @@ void Plant::notice_changes() {
     reported.state = channel.state();
     notice_tendon(channel, reported);
     notice_limb(i);
-    // Only the first is reported; actuator_owner publishes the counters.
+    // Only the first limited or refused reference is reported; actuator_owner publishes the
+    // counters.
     const bool first =
         (channel.limited() && !reported.limited) || (channel.refused() && !reported.refused);
     if (first)
@@ -122,10 +123,10 @@ void Plant::notice_changes() {
 }
 
 const erp::ActuatorOwner& Plant::owners() {
-  owners_.stamp_ns = frame_.stamp_ns;
+  owner_message_.stamp_ns = frame_.stamp_ns;
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     const ActuatorChannel& channel = channels_[i];
-    auto& sample = owners_.actuators._buffer[i];
+    auto& sample = owner_message_.actuators._buffer[i];
     erp::assign(sample.owner, channel.owner());
     sample.priority = channel.priority();
     sample.safe_action = static_cast<std::uint8_t>(channel.safe_action());
@@ -133,7 +134,7 @@ const erp::ActuatorOwner& Plant::owners() {
     sample.refused = channel.refused();
     erp::assign_shortened(sample.reason, channel.reason());
   }
-  return owners_;
+  return owner_message_;
 }
 
 }  // namespace plant

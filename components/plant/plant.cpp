@@ -7,9 +7,11 @@
 namespace plant {
 namespace {
 
-/// The slack threshold is at least six times the noise, so that a slack tendon never appears taut.
+constexpr double slack_sigmas =
+    6;  // chosen: so that noise does not make a slack tendon appear taut
+
 TendonMonitor::Params tendon_params(const erp::SensorType& sensors, const Plant::Params& params) {
-  return {std::max(params.slack_N, 6 * sensors.tension_noise_N), params.take_up_m};
+  return {std::max(params.slack_N, slack_sigmas * sensors.tension_noise_N), params.take_up_m};
 }
 
 }  // namespace
@@ -18,7 +20,7 @@ Plant::Plant(const Params& params, const erp::Robot& robot)
     : stale_ns_(std::llround(1e9 * params.stale_s)),
       device_lost_ns_(std::llround(1e9 * params.device_lost_s)),
       limb_monitor_(robot, device_lost_ns_),
-      boots_(robot.actuators.size(), false),
+      is_booting_(robot.actuators.size(), false),
       reported_(robot.actuators.size()) {
   for (auto& ecu : channel_at_) ecu.fill(-1);
   for (auto& ecu : analog_at_) ecu.fill(-1);
@@ -34,7 +36,7 @@ Plant::Plant(const Params& params, const erp::Robot& robot)
     erp::append(frame_.actuators, sample);
     erp::ActuatorOwnerSample owner{};
     erp::assign(owner.name, actuator.name);
-    erp::append(owners_.actuators, owner);
+    erp::append(owner_message_.actuators, owner);
     erp::append(
         command_.channels,
         erp::EcuChannelCommand{static_cast<std::uint8_t>(actuator.ecu),
@@ -52,8 +54,8 @@ void Plant::add_analogs(const erp::Robot& robot) {
     erp::append(frame_.joints, sample);
   }
   for (const auto& sensor : robot.potentiometers) {
-    const auto is_its = [&](const erp::Actuator& a) { return a.name == sensor.actuator; };
-    const auto actuator = std::ranges::find_if(robot.actuators, is_its);
+    const auto is_measured = [&](const erp::Actuator& a) { return a.name == sensor.actuator; };
+    const auto actuator = std::ranges::find_if(robot.actuators, is_measured);
     analogs_.push_back({sensor.range_rad / (std::exp2(sensor.bits) - 1), -1,
                         static_cast<int>(actuator - robot.actuators.begin())});
   }
@@ -64,14 +66,14 @@ void Plant::add_analogs(const erp::Robot& robot) {
 }
 
 void Plant::sense_channel(const erp::EcuChannelSample& counts, std::int64_t now_ns) {
-  if (counts.ecu >= channel_at_.size() || counts.channel > 1) return;
+  if (counts.ecu >= channel_at_.size() || counts.channel >= channels_per_ecu) return;
   const int index = channel_at_[counts.ecu][counts.channel];
   if (index < 0) return;
   const auto i = static_cast<std::size_t>(index);
   ActuatorChannel& channel = channels_[i];
   auto& sample = frame_.actuators._buffer[i];
   sample.valid = counts.fresh ? erp::valid::all : 0;
-  boots_[i] = counts.fresh && counts.state == ECU_STATE_BOOT;
+  is_booting_[i] = counts.fresh && counts.state == ECU_STATE_BOOT;
   if (!counts.fresh) return;
   limb_monitor_.on_sample(i, now_ns);
   const sim::EcuUnits& units = channel.units();
@@ -89,7 +91,7 @@ void Plant::sense_channel(const erp::EcuChannelSample& counts, std::int64_t now_
 }
 
 void Plant::sense_analog(const erp::EcuAnalogSample& counts) {
-  if (counts.ecu >= analog_at_.size() || counts.input > 3 || !counts.fresh) return;
+  if (counts.ecu >= analog_at_.size() || counts.input >= analogs_per_ecu || !counts.fresh) return;
   const int index = analog_at_[counts.ecu][counts.input];
   if (index < 0) return;
   const Analog& analog = analogs_[static_cast<std::size_t>(index)];
@@ -117,22 +119,24 @@ const erp::SensorFrame& Plant::sense(const erp::EcuFrame& frame, std::int64_t no
 
 void Plant::receive(const erp::ActuatorCommand& command, std::int64_t now_ns) {
   for (const auto& reference : erp::samples(command.actuators)) {
-    ActuatorChannel* found = nullptr;
+    ActuatorChannel* addressed = nullptr;
     for (auto& channel : channels_)
-      if (channel.name() == reference.name) found = &channel;
-    if (found)
-      found->receive(command.controller, command.priority, static_cast<erp::Mode>(reference.mode),
-                     reference.reference, now_ns, stale_ns_);
+      if (channel.name() == reference.name) addressed = &channel;
+    if (addressed)
+      addressed->receive(command.controller, command.priority,
+                         static_cast<erp::Mode>(reference.mode), reference.reference, now_ns,
+                         stale_ns_);
     else report_unknown(command.controller, reference.name);
   }
 }
 
 void Plant::report_unknown(const std::string& controller, const std::string& name) {
   if (!reported_unknown_.insert(controller + " " + name).second) return;
-  std::string known;
-  for (const auto& channel : channels_) known += (known.empty() ? "" : ", ") + channel.name();
+  std::string actuator_names;
+  for (const auto& channel : channels_)
+    actuator_names += (actuator_names.empty() ? "" : ", ") + channel.name();
   notices_.push_back({erp::Severity::warning, "", "unknown_actuator",
-                      controller + " commands \"" + name + "\"; this robot has " + known});
+                      controller + " commands \"" + name + "\"; this robot has " + actuator_names});
 }
 
 const erp::EcuCommand& Plant::command(std::int64_t now_ns) {

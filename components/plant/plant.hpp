@@ -23,9 +23,9 @@ struct Notice {
   std::string text;
 };
 
-/// Merges notices that differ only in the actuator, if there are three or more, into one that states
-/// their number. If they are fewer than `actuators`, the number of all actuators, it also names the
-/// first three. Keeps the order otherwise.
+/// Merges three or more notices that differ only in the actuator into one that contains their
+/// number. It also names the first three, unless the notices concern all actuators; `actuators` is
+/// the number of all actuators. The order is otherwise unchanged.
 std::vector<Notice> merge_similar(std::vector<Notice> notices, std::size_t actuators);
 
 class Plant {
@@ -60,8 +60,8 @@ class Plant {
   /// Arbitrates and converts to ECU requests; answers the last frame. Call at least once per frame.
   const erp::EcuCommand& command(std::int64_t now_ns);
   const erp::ActuatorOwner& owners();
-  /// Whether the actuator's ECU channel reports state boot and therefore needs its gains.
-  bool waits_for_gains(std::size_t actuator) const { return boots_[actuator]; }
+  /// True if the actuator's ECU channel reports state boot and therefore needs its gains.
+  bool waits_for_gains(std::size_t actuator) const { return is_booting_[actuator]; }
   /// Marks all measurements invalid if the device is silent for too long. True on this transition.
   bool check_device(std::int64_t now_ns);
   /// The notices since the last call; equal notices of several actuators are merged.
@@ -91,19 +91,22 @@ class Plant {
   std::int64_t stale_ns_, device_lost_ns_;
   LimbMonitor limb_monitor_;
   std::vector<ActuatorChannel> channels_;
+  static constexpr std::size_t ecus = 128, channels_per_ecu = 2,
+                               analogs_per_ecu = 4;  ///< of the bus
   /// An analog input: a joint's sensor or an actuator's potentiometer.
   struct Analog {
     double rad_per_count;
     int joint = -1, actuator = -1;  ///< index of its sample, or −1
   };
   std::vector<Analog> analogs_;
-  std::array<std::array<int, 2>, 128> channel_at_;  ///< [ecu][channel] → index or −1
-  std::array<std::array<int, 4>, 128> analog_at_;   ///< [ecu][input] → index or −1
-  std::vector<bool> boots_;
+  std::array<std::array<int, channels_per_ecu>, ecus>
+      channel_at_;  ///< [ecu][channel] → index or −1
+  std::array<std::array<int, analogs_per_ecu>, ecus> analog_at_;  ///< [ecu][input] → index or −1
+  std::vector<bool> is_booting_;
   std::vector<Reported> reported_;
   erp::SensorFrame frame_;
   erp::EcuCommand command_;
-  erp::ActuatorOwner owners_;
+  erp::ActuatorOwner owner_message_;
   std::int64_t last_frame_ns_ = 0, last_decision_ns_ = 0;
   bool device_alive_ = false;
   std::vector<Notice> notices_;

@@ -11,10 +11,9 @@
 namespace plant {
 namespace {
 
-constexpr std::int64_t device_check_ns =
-    1'000'000;  // the device is lost 50 … 51 ms after its last message
-constexpr std::uint64_t owner_period = 50;  // frames: owners are published at 10 Hz
-constexpr std::uint64_t gains_period = 50;  // frames between attempts to set gains
+constexpr std::int64_t device_check_ns = 1'000'000;  // device_lost follows 50 … 51 ms of silence
+constexpr std::uint64_t owner_period_frames = 50;    // owners are published at 10 Hz
+constexpr std::uint64_t gains_period_frames = 50;    // between attempts to set gains
 
 /// All gains of an ECU channel, designed from robot.xml; the last value commits the set.
 std::vector<erp::EcuParameterValue> gain_set(const erp::Robot& robot,
@@ -73,28 +72,28 @@ PlantNode::PlantNode(const Params& params, const erp::Robot& robot, node::Node& 
 void PlantNode::on_frame(const erp::EcuFrame& frame) {
   if (answer_pending_ && !node_.clock().lockstep()) answer();
   // A lockstep device repeats a frame whose answer it missed.
-  if (frame_received_ && node_.clock().lockstep() && frame.sequence == frame_)
+  if (frame_received_ && node_.clock().lockstep() && frame.sequence == current_frame_)
     return repeat_answer();
   node_.clock().advance(frame.stamp_ns);
-  frame_ = frame.sequence;
+  current_frame_ = frame.sequence;
   frame_received_ = true;
   answer_pending_ = true;
   pending_since_ns_ = node::monotonic_ns();
   auto sensed = plant_.sense(frame, node_.clock().now_ns());
   sensor_out_.publish_numbered(sensed);
-  if (frames_++ % gains_period == 0) send_gains();
-  if (frames_ % owner_period == 1) publish_owners();
+  if (frame_count_++ % gains_period_frames == 0) send_gains();
+  if (frame_count_ % owner_period_frames == 1) publish_owners();
   node_.count_step(frame.stamp_ns);
   if (node_.clock().lockstep() && all_answered()) answer();
 }
 
 void PlantNode::on_command(const erp::ActuatorCommand& command) {
   plant_.receive(command, node_.clock().now_ns());
-  const auto known = std::find_if(answers_.begin(), answers_.end(), [&](const Answer& a) {
+  const auto previous_answer = std::find_if(answers_.begin(), answers_.end(), [&](const Answer& a) {
     return a.controller == command.controller;
   });
-  if (known == answers_.end()) answers_.push_back({command.controller, command.answers});
-  else known->answers = command.answers;
+  if (previous_answer == answers_.end()) answers_.push_back({command.controller, command.answers});
+  else previous_answer->answers = command.answers;
   if (!answer_pending_) {
     if (!node_.clock().lockstep() && frame_received_) answer();
     return;
@@ -103,10 +102,11 @@ void PlantNode::on_command(const erp::ActuatorCommand& command) {
 }
 
 bool PlantNode::all_answered() const {
-  const auto answered = static_cast<std::size_t>(std::count_if(
-      answers_.begin(), answers_.end(), [&](const Answer& a) { return a.answers >= frame_; }));
+  const auto answered = static_cast<std::size_t>(
+      std::count_if(answers_.begin(), answers_.end(),
+                    [&](const Answer& a) { return a.answers >= current_frame_; }));
   return answered >= command_in_->matched() ||
-         node::monotonic_ns() - pending_since_ns_ > node::lockstep_patience_ns;
+         node::monotonic_ns() - pending_since_ns_ > node::lockstep_timeout_ns;
 }
 
 void PlantNode::answer() {
@@ -144,10 +144,10 @@ void PlantNode::on_gains(const erp::GainCommand& command) {
 void PlantNode::report_refused_gain(const erp::GainValue& gain) {
   const std::string parameter = gain.parameter, name = gain.name;
   if (!refused_gains_.insert(name + "." + parameter).second) return;
-  const bool number = std::isfinite(gain.value);
+  const bool is_number = std::isfinite(gain.value);
   node_.report(erp::Severity::warning, name, "gain_refused",
-               number ? "there is no gain " + parameter + " of " + name
-                      : parameter + " must be a number, got " + std::to_string(gain.value));
+               is_number ? "there is no gain " + parameter + " of " + name
+                         : parameter + " must be a number, got " + std::to_string(gain.value));
 }
 
 void PlantNode::send_gains() {

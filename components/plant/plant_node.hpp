@@ -8,9 +8,10 @@
 
 /// The plant on the bus.
 ///
-/// Real time: a controller's command is passed to the device as soon as it arrives. If no controller
-/// answers a frame before the next frame, the plant answers it, so the ECUs receive a command in
-/// each period. Lockstep: the plant answers a frame once every controller has answered it.
+/// Real time: a controller's command is passed to the device as soon as it arrives. If no
+/// controller answers a frame before the next frame, the plant answers it, so the ECUs receive a
+/// command in each period. Lockstep: the plant answers a frame once every controller has answered
+/// it.
 namespace plant {
 
 class PlantNode {
@@ -45,8 +46,8 @@ class PlantNode {
   node::Publisher<erp::ActuatorOwner>& owner_out_;
   node::Subscription<erp::ActuatorCommand>* command_in_;
   std::vector<Answer> answers_;
-  std::set<std::string> refused_gains_;  ///< already reported
-  std::uint64_t frame_ = 0, frames_ = 0;
+  std::set<std::string> refused_gains_;  ///< reported once
+  std::uint64_t current_frame_ = 0, frame_count_ = 0;
   bool frame_received_ = false, answer_pending_ = false;
   std::int64_t pending_since_ns_ = 0;
 };

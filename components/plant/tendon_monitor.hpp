@@ -1,14 +1,13 @@
 #pragma once
 #include <cstdint>
 
-/// Determines whether a tendon is taut, from its tension and its line length alone.
+/// Determines from tension and line length whether a tendon is taut.
 ///
 ///   slack     below `slack_N` for 16 ms while it should pull
-///   snapped   slack, and `take_up_m` of line was wound up since then without becoming taut; remains
-///             until `reset`
+///   snapped   still slack after `take_up_m` of line was wound up; remains until `reset`
 ///
-/// A slack tendon is not a fault: limbs are moved by hand and followers slacken. But a force law on a
-/// slack tendon winds without limit.
+/// A slack tendon is not a fault: it occurs when a limb is moved by hand, or in a follower.
+/// However, a force law on a slack tendon winds without limit.
 namespace plant {
 
 enum class TendonState { taut, slack, snapped };
@@ -28,7 +27,7 @@ class TendonMonitor {
       reset();
       return state_;
     }
-    if (!slack_) slack_ = true, slack_since_ns_ = now_ns, slack_line_m_ = line_m;
+    if (!is_unloaded_) is_unloaded_ = true, slack_since_ns_ = now_ns, slack_line_m_ = line_m;
     if (slack_line_m_ - line_m > params_.take_up_m) state_ = TendonState::snapped;
     else if (now_ns - slack_since_ns_ >= slack_time_ns) state_ = TendonState::slack;
     return state_;
@@ -38,17 +37,17 @@ class TendonMonitor {
   void reset_unless_snapped() {
     if (state_ != TendonState::snapped) reset();
   }
-  void reset() { state_ = TendonState::taut, slack_ = false; }
+  void reset() { state_ = TendonState::taut, is_unloaded_ = false; }
 
-  /// A loss of tension is reported within 20 ms, as readings are up to 4 ms old.
+  /// A loss of tension is reported within 20 ms, because readings are up to 4 ms old.
   static constexpr std::int64_t slack_time_ns = 16'000'000;
 
  private:
   Params params_;
   TendonState state_ = TendonState::taut;
-  bool slack_ = false;
+  bool is_unloaded_ = false;
   std::int64_t slack_since_ns_ = 0;
-  double slack_line_m_ = 0;  ///< line length when it became slack
+  double slack_line_m_ = 0;  ///< line length when the tendon became slack
 };
 
 }  // namespace plant

@@ -8,7 +8,7 @@
 namespace pose {
 namespace {
 
-const double quantum = 1 / std::sqrt(12.0);  // σ of quantization, in counts
+const double quantization_counts = 1 / std::sqrt(12.0);  // σ of quantization
 
 }  // namespace
 
@@ -19,9 +19,10 @@ PoseEstimator::PoseEstimator(const Params& params, const erp::Robot& robot)
     const erp::SensorType& sensors = robot_.sensors_of(a);
     const sim::SensorScale scale(robot_.motor_of(a), sensors);
     const auto i = static_cast<Eigen::Index>(tendons_.size());
-    tendons_.push_back({a.name, sim::TendonLaw::at_rest(a.tendon, a.spindle, lengths[i]),
-                        std::hypot(sensors.tension_noise_N, quantum * scale.tension_N_per_count),
-                        quantum * scale.shaft_rad_per_count});
+    tendons_.push_back(
+        {a.name, sim::TendonLaw::at_rest(a.tendon, a.spindle, lengths[i]),
+         std::hypot(sensors.tension_noise_N, quantization_counts * scale.tension_N_per_count),
+         quantization_counts * scale.shaft_rad_per_count});
   }
   const auto& bodies = filter_.model().tree().names;
   for (const erp::Imu& imu : robot_.imus)
@@ -46,15 +47,16 @@ erp::JointState PoseEstimator::step(const erp::SensorFrame& frame, double dt_s,
 
 void PoseEstimator::read_sensors(const erp::SensorFrame& frame, double dt_s) {
   constexpr auto needed = erp::valid::shaft | erp::valid::tension;
-  for (Tendon& tendon : tendons_) tendon.known = false;
+  for (Tendon& tendon : tendons_) tendon.is_measured = false;
   for (const erp::ActuatorSample& sample : erp::samples(frame.actuators)) {
-    const auto found =
+    const auto tendon_of_sample =
         std::ranges::find_if(tendons_, [&](const auto& t) { return t.name == sample.name; });
-    if (found == tendons_.end() || (sample.valid & needed) != needed) continue;
-    found->speed_rad_per_s = dt_s > 0 ? (sample.shaft_rad - found->shaft_rad) / dt_s : 0;
-    found->shaft_rad = sample.shaft_rad;
-    found->tension_N = std::max(0.0, sample.tension_N);
-    found->known = true;
+    if (tendon_of_sample == tendons_.end() || (sample.valid & needed) != needed) continue;
+    tendon_of_sample->speed_rad_per_s =
+        dt_s > 0 ? (sample.shaft_rad - tendon_of_sample->shaft_rad) / dt_s : 0;
+    tendon_of_sample->shaft_rad = sample.shaft_rad;
+    tendon_of_sample->tension_N = std::max(0.0, sample.tension_N);
+    tendon_of_sample->is_measured = true;
   }
 }
 
@@ -63,7 +65,7 @@ void PoseEstimator::update_from_tendons() {
   for (std::size_t a = 0; a < tendons_.size(); ++a) {
     const Tendon& t = tendons_[a];
     const auto i = static_cast<Eigen::Index>(a);
-    if (!t.known) continue;  // keeps the last known tension
+    if (!t.is_measured) continue;  // tension_N_ keeps the last measured tension
     tension_N_[i] = t.tension_N;
     if (t.tension_N < params_.slack_N) continue;
     const double rate = length_rate_m_per_s_[i] + t.law.radius_m * t.speed_rad_per_s;
@@ -85,16 +87,17 @@ void PoseEstimator::update_from_joints(const erp::SensorFrame& frame) {
       if (!matches || !(sample.valid & erp::valid::joint_angle)) continue;
       for (const erp::JointSensor& sensor : robot_.joint_sensors)
         if (sensor.joint == sample.name)
-          filter_.update_joint(static_cast<int>(j), {sample.angle_rad},
-                               std::hypot(sensor.noise_rad, quantum * 2 * std::numbers::pi /
-                                                                std::exp2(sensor.bits_per_rev)));
+          filter_.update_joint(
+              static_cast<int>(j), {sample.angle_rad},
+              std::hypot(sensor.noise_rad, quantization_counts * 2 * std::numbers::pi /
+                                               std::exp2(sensor.bits_per_rev)));
     }
 }
 
 /// Uses each capture message once.
 void PoseEstimator::update_from_capture(const node::Latest<erp::JointState>& capture) {
-  if (!capture || capture.arrived_ns == captured_ns_) return;
-  captured_ns_ = capture.arrived_ns;
+  if (!capture || capture.arrived_ns == last_capture_ns_) return;
+  last_capture_ns_ = capture.arrived_ns;
   if (!names_.read(capture.message, captured_)) return;
   for (std::size_t j = 0; j < captured_.size(); ++j)
     filter_.update_joint(static_cast<int>(j), captured_[j].position, params_.capture_rad);
@@ -102,8 +105,8 @@ void PoseEstimator::update_from_capture(const node::Latest<erp::JointState>& cap
 
 /// Uses each IMU frame once.
 void PoseEstimator::update_from_imus(const node::Latest<erp::ImuFrame>& imus) {
-  if (!imus || imus.arrived_ns == turned_ns_) return;
-  turned_ns_ = imus.arrived_ns;
+  if (!imus || imus.arrived_ns == last_imu_ns_) return;
+  last_imu_ns_ = imus.arrived_ns;
   for (const erp::ImuSample& sample : erp::samples(imus->imus))
     for (std::size_t k = 0; k < robot_.imus.size(); ++k) {
       const erp::Imu& unit = robot_.imus[k];
@@ -112,7 +115,7 @@ void PoseEstimator::update_from_imus(const node::Latest<erp::ImuFrame>& imus) {
       filter_.update_angular_velocity(
           imu_bodies_[k], Eigen::Map<const sim::Vec3>(sample.turning_rad_per_s),
           std::hypot(unit.turning_noise_rad_per_s,
-                     quantum * 2 * unit.turning_range_rad_per_s / counts));
+                     quantization_counts * 2 * unit.turning_range_rad_per_s / counts));
       filter_.update_gravity(
           imu_bodies_[k], Eigen::Map<const sim::Vec3>(sample.acceleration_m_per_s2),
           std::hypot(unit.acceleration_noise_m_per_s2, params_.acceleration_sigma_m_per_s2));

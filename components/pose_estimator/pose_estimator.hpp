@@ -12,7 +12,7 @@
 ///
 ///   σ_l² = (σ_F / f′)² + σ_θ² r² + σ_model²        noise of robot.xml's sensors, and `model_m`
 ///
-/// Encoders count from power-up: the robot must then be in its starting pose.
+/// Encoders count from power-up: the robot must be in its starting pose at power-up.
 namespace pose {
 
 class PoseEstimator {
@@ -71,7 +71,7 @@ class PoseEstimator {
     sim::TendonLaw law;
     double tension_sigma_N, shaft_sigma_rad;
     double tension_N = 0, shaft_rad = 0, speed_rad_per_s = 0;
-    bool known = false;
+    bool is_measured = false;
   };
   void read_sensors(const erp::SensorFrame& frame, double dt_s);
   void update_from_tendons();
@@ -88,7 +88,7 @@ class PoseEstimator {
   Eigen::VectorXd tension_N_, length_rate_m_per_s_, variance_rad2_;
   std::vector<sim::JointReading> captured_;
   std::vector<int> imu_bodies_;  ///< by unit of robot.xml
-  std::int64_t captured_ns_ = 0, turned_ns_ = 0;
+  std::int64_t last_capture_ns_ = 0, last_imu_ns_ = 0;
 };
 
 }  // namespace pose

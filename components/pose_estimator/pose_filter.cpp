@@ -37,18 +37,18 @@ void PoseFilter::predict(double dt_s, const Vector& tension_N) {
   const Eigen::Index n = speed_.size();
   accelerate(dt_s, tension_N);
   step_ = dt_s * speed_;
-  turn(step_);
+  move_joints(step_);
   model_.place(joints_);
   auto qq = p_.topLeftCorner(n, n);
   auto qv = p_.topRightCorner(n, n);
   auto vv = p_.bottomRightCorner(n, n);
   qq += dt_s * (qv + qv.transpose()) + dt_s * dt_s * vv;
   qv += dt_s * vv;
-  const double s =
+  const double speed_variance =
       options_.acceleration_rad_per_s2 * options_.acceleration_rad_per_s2 * dt_s * dt_s;
-  qq.diagonal().array() += s * dt_s * dt_s / 4;
-  qv.diagonal().array() += s * dt_s / 2;
-  vv.diagonal().array() += s;
+  qq.diagonal().array() += speed_variance * dt_s * dt_s / 4;
+  qv.diagonal().array() += speed_variance * dt_s / 2;
+  vv.diagonal().array() += speed_variance;
   p_.bottomLeftCorner(n, n) = qv.transpose();
 }
 
@@ -68,17 +68,17 @@ void PoseFilter::accelerate(double dt_s, const Vector& tension_N) {
   speed_ += dt_s * torque_;
 }
 
-/// q ← q ⊕ by; also copies the velocities.
-void PoseFilter::turn(const Eigen::Ref<const Vector>& by) {
+/// q ← q ⊕ displacement; also copies the velocities.
+void PoseFilter::move_joints(const Eigen::Ref<const Vector>& displacement) {
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const int first = model_.skeleton().first_of(static_cast<int>(j));
     if (first < 0) continue;
-    std::array<double, 3> way{};
+    std::array<double, 3> rotation_rad{};
     for (int d = 0; d < std::min(sim::coordinates_of(joints_[j].type), 3); ++d) {
-      way[static_cast<std::size_t>(d)] = by[first + d];
+      rotation_rad[static_cast<std::size_t>(d)] = displacement[first + d];
       joints_[j].velocity_rad_per_s[static_cast<std::size_t>(d)] = speed_[first + d];
     }
-    joints_[j].position = sim::displaced(joints_[j].type, joints_[j].position, way);
+    joints_[j].position = sim::displaced(joints_[j].type, joints_[j].position, rotation_rad);
   }
 }
 
@@ -94,14 +94,15 @@ bool PoseFilter::update_joint(int joint, const std::array<double, 4>& position, 
   const auto j = static_cast<std::size_t>(joint);
   const int first = model_.skeleton().first_of(joint);
   if (first < 0) return false;
-  const auto way = sim::displacement(joints_[j].type, joints_[j].position, position);
-  bool all = true;
+  const auto rotation_rad = sim::displacement(joints_[j].type, joints_[j].position, position);
+  bool all_accepted = true;
   for (int d = 0; d < std::min(sim::coordinates_of(joints_[j].type), 3); ++d) {
     row_.setZero();
     row_[first + d] = 1;
-    all = update(row_, way[static_cast<std::size_t>(d)], sigma_rad) && all;
+    all_accepted =
+        update(row_, rotation_rad[static_cast<std::size_t>(d)], sigma_rad) && all_accepted;
   }
-  return all;
+  return all_accepted;
 }
 
 /// Rotation axis of S_d in a body's own axes.
@@ -117,35 +118,36 @@ sim::Vec3 PoseFilter::parent_angular_rad_per_s(int coordinate) const {
   return model_.skeleton().twists()[static_cast<std::size_t>(parent)].angular_rad_per_s;
 }
 
-bool PoseFilter::update_angular_velocity(int body, const sim::Vec3& turning_rad_per_s,
+bool PoseFilter::update_angular_velocity(int body, const sim::Vec3& measured_rad_per_s,
                                          double sigma) {
   const auto b = static_cast<std::size_t>(body);
   const auto& skeleton = model_.skeleton();
-  const Eigen::Matrix3d into = skeleton.poses()[b].rotation.transpose();
-  const sim::Vec3 innovation = turning_rad_per_s - into * skeleton.twists()[b].angular_rad_per_s;
-  bool all = true;
+  const Eigen::Matrix3d to_body = skeleton.poses()[b].rotation.transpose();
+  const sim::Vec3 innovation =
+      measured_rad_per_s - to_body * skeleton.twists()[b].angular_rad_per_s;
+  bool all_accepted = true;
   for (int axis = 0; axis < 3; ++axis) {
     row_.setZero();
     for (const int d : skeleton.movers(body)) {
-      const sim::Vec3 turns = skeleton.axis(d).head<3>();
-      row_[speed_.size() + d] = (into * turns)[axis];
-      row_[d] = (into * parent_angular_rad_per_s(d).cross(turns))[axis];
+      const sim::Vec3 axis_in_world = skeleton.axis(d).head<3>();
+      row_[speed_.size() + d] = (to_body * axis_in_world)[axis];
+      row_[d] = (to_body * parent_angular_rad_per_s(d).cross(axis_in_world))[axis];
     }
-    all = update(row_, innovation[axis], sigma) && all;
+    all_accepted = update(row_, innovation[axis], sigma) && all_accepted;
   }
-  return all;
+  return all_accepted;
 }
 
 bool PoseFilter::update_gravity(int body, const sim::Vec3& force_m_per_s2, double sigma) {
   const auto& pose = model_.skeleton().poses()[static_cast<std::size_t>(body)];
   const sim::Vec3 up = -(pose.rotation.transpose() * gravity_m_per_s2_);
-  bool all = true;
+  bool all_accepted = true;
   for (int axis = 0; axis < 3; ++axis) {
     row_.setZero();
     for (const int d : model_.skeleton().movers(body)) row_[d] = up.cross(axis_on(body, d))[axis];
-    all = update(row_, force_m_per_s2[axis] - up[axis], sigma) && all;
+    all_accepted = update(row_, force_m_per_s2[axis] - up[axis], sigma) && all_accepted;
   }
-  return all;
+  return all_accepted;
 }
 
 /// `innovation`: measured minus predicted, at the pose relative to which δ is defined.
@@ -162,7 +164,7 @@ bool PoseFilter::update(const Vector& h, double innovation, double sigma) {
 void PoseFilter::apply_correction() {
   const Eigen::Index n = speed_.size();
   speed_ += error_.tail(n);
-  turn(error_.head(n));
+  move_joints(error_.head(n));
   error_.setZero();
   model_.place(joints_);
 }

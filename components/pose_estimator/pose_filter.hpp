@@ -13,16 +13,17 @@
 ///   update   l̂_a − l_a(q) = L_a δ + noise σ_l:   one tendon after the other, each with its own gate
 ///
 ///   update   ω̂ − R_bᵀ ω_b = R_bᵀ (S ε + (ω_p × S) δ) + noise,   f̂ + R_bᵀ g = −R_bᵀ (g × S) δ + noise
-///            an inertial unit on body b: angular velocity ω̂ and specific force f̂, whose dynamic part is noise;
-///            S: joint axes that move b, ω_p: angular velocity of the body that carries each axis
+///            an inertial unit on body b: angular velocity ω̂ and specific force f̂;
+///            the acceleration of the body counts as noise;
+///            S: joint axes that move b, ω_p: angular velocity of the parent body of each axis
 ///
-/// So a ball joint needs no angles. A measurement whose innovation exceeds `gate` standard
-/// deviations is rejected, for example of a dead sensor or a line that has slipped. Source: Solà
+/// Ball joints need no angles in this form. A measurement whose innovation exceeds `gate` standard
+/// deviations is rejected, for example if a sensor has failed or a line has slipped. Source: Solà
 /// 2017, quaternion kinematics for the error-state Kalman filter; sequential updates: Maybeck 1979.
 /// No heap after construction.
 namespace pose {
 
-/// σ_a, σ of the initial state, gate; meanings: PoseEstimator::Params.
+/// σ_a, σ of the initial state, gate; described in PoseEstimator::Params.
 struct FilterOptions {
   double acceleration_rad_per_s2 = 20;
   double start_rad = 0.1, start_rad_per_s = 0.1;
@@ -46,7 +47,7 @@ class PoseFilter {
   bool update_joint(int joint, const std::array<double, 4>& position, double sigma_rad);
   /// Updates with a body's angular velocity in its own axes, in rad/s, and the σ of each axis.
   /// False: rejected.
-  bool update_angular_velocity(int body, const sim::Vec3& turning_rad_per_s,
+  bool update_angular_velocity(int body, const sim::Vec3& measured_rad_per_s,
                                double sigma_rad_per_s);
   /// Updates with the specific force on a body in its own axes, in m/s², and the σ of each axis.
   /// The body's acceleration counts as noise. False: rejected.
@@ -66,7 +67,7 @@ class PoseFilter {
   sim::Vec3 axis_on(int body, int coordinate) const;
   sim::Vec3 parent_angular_rad_per_s(int coordinate) const;
   void accelerate(double dt_s, const Vector& tension_N);
-  void turn(const Eigen::Ref<const Vector>& by);
+  void move_joints(const Eigen::Ref<const Vector>& displacement);
 
   FilterOptions options_;
   sim::Musculoskeletal model_;

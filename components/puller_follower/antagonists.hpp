@@ -21,7 +21,8 @@ struct Pair {
   bool positive_pulls(double torque_Nm) const { return torque_Nm >= 0; }
   std::array<double, 2> tensions_N(double torque_Nm, double reference_N) const {
     // With different moment arms the reference tension itself causes a torque.
-    const double own_Nm = reference_N * (arm_m[0] - arm_m[1]), net_Nm = torque_Nm - own_Nm;
+    const double reference_torque_Nm = reference_N * (arm_m[0] - arm_m[1]),
+                 net_Nm = torque_Nm - reference_torque_Nm;
     return {reference_N + std::max(0.0, net_Nm) / arm_m[0],
             reference_N + std::max(0.0, -net_Nm) / arm_m[1]};
   }
@@ -35,9 +36,9 @@ struct ReferenceTension {
   double low_N, high_N, width_Nm, lead_s;
 
   double of(double torque_Nm, double torque_rate_Nm_per_s) const {
-    const double ahead_Nm = torque_Nm + lead_s * torque_rate_Nm_per_s;
-    const bool crosses = torque_Nm * ahead_Nm <= 0;
-    const double nearest_Nm = crosses ? 0 : std::min(std::abs(torque_Nm), std::abs(ahead_Nm));
+    const double predicted_Nm = torque_Nm + lead_s * torque_rate_Nm_per_s;
+    const bool crosses = torque_Nm * predicted_Nm <= 0;
+    const double nearest_Nm = crosses ? 0 : std::min(std::abs(torque_Nm), std::abs(predicted_Nm));
     const double x = std::clamp(1 - nearest_Nm / width_Nm, 0.0, 1.0);
     return low_N + x * x * (3 - 2 * x) * (high_N - low_N);
   }
@@ -61,15 +62,16 @@ class TensionLinearisation {
     double tension_N, rate_N_per_s, acceleration_N_per_s2;
   };
 
-  double voltage_V(const Measured& seen, const Desired& desired) const {
-    const double slope = spring_.slope_N_per_m(spring_.stretch_m(std::max(0.0, seen.tension_N)));
+  double voltage_V(const Measured& measured, const Desired& desired) const {
+    const double slope =
+        spring_.slope_N_per_m(spring_.stretch_m(std::max(0.0, measured.tension_N)));
     const double r = motor_.radius_m();
-    const double rate = slope * (seen.length_rate_m_per_s + r * seen.speed_rad_per_s);
+    const double rate = slope * (measured.length_rate_m_per_s + r * measured.speed_rad_per_s);
     const double acceleration = desired.acceleration_N_per_s2 +
                                 2 * b_ * (desired.rate_N_per_s - rate) +
-                                b_ * b_ * (desired.tension_N - seen.tension_N);
-    return motor_.voltage_V(seen.tension_N, seen.speed_rad_per_s,
-                            (acceleration / slope - seen.length_acceleration_m_per_s2) / r);
+                                b_ * b_ * (desired.tension_N - measured.tension_N);
+    return motor_.voltage_V(measured.tension_N, measured.speed_rad_per_s,
+                            (acceleration / slope - measured.length_acceleration_m_per_s2) / r);
   }
 
  private:

@@ -13,37 +13,41 @@ using Eigen::VectorXd;
 class Linearised : public JointLaw {
  public:
   Linearised(const LawParams& params, int n)
-      : params_(params), factor_(n), sum_(VectorXd::Zero(n)), acceleration_(sum_), torque_(sum_) {}
+      : params_(params),
+        factor_(n),
+        integral_(VectorXd::Zero(n)),
+        acceleration_(integral_),
+        torque_(integral_) {}
 
   void begin(const VectorXd& torque_Nm, const Dynamics& dynamics) override {
-    sum_.setZero();
+    integral_.setZero();
     if (params_.ki_per_s3 <= 0) return;
     torque_ = torque_Nm - dynamics.bias;
     factor_.compute(dynamics.inertia);
     factor_.solveInPlace(torque_);
-    sum_ = torque_ / params_.ki_per_s3;
-    bound();
+    integral_ = torque_ / params_.ki_per_s3;
+    limit_integral();
   }
   const VectorXd& torque_Nm(const JointErrors& errors, const Dynamics& dynamics,
                             double dt_s) override {
-    sum_ += dt_s * errors.error_rad;
-    bound();
+    integral_ += dt_s * errors.error_rad;
+    limit_integral();
     acceleration_ = errors.desired_rad_per_s2 + params_.kd_per_s * errors.error_rad_per_s +
-                    params_.kp_per_s2 * errors.error_rad + params_.ki_per_s3 * sum_;
+                    params_.kp_per_s2 * errors.error_rad + params_.ki_per_s3 * integral_;
     torque_ = dynamics.bias;
     torque_.noalias() += dynamics.inertia * acceleration_;
     return torque_;
   }
 
  private:
-  void bound() {
-    const double most = params_.integral_rad_s;
-    sum_ = sum_.cwiseMax(-most).cwiseMin(most);
+  void limit_integral() {
+    const double limit = params_.integral_rad_s;
+    integral_ = integral_.cwiseMax(-limit).cwiseMin(limit);
   }
 
   LawParams params_;
   Eigen::LLT<Eigen::MatrixXd> factor_;
-  VectorXd sum_, acceleration_, torque_;
+  VectorXd integral_, acceleration_, torque_;
 };
 
 class LoopShaping : public JointLaw {
@@ -56,13 +60,13 @@ class LoopShaping : public JointLaw {
     output_ = torque_Nm - params_.gravity * dynamics.gravity;
     factor_.compute(alignment_);
     factor_.solveInPlace(output_);
-    rest_.noalias() = holding_ * output_;
-    loops_.begin(rest_);
+    initial_state_.noalias() = holding_ * output_;
+    loops_.begin(initial_state_);
   }
   const VectorXd& torque_Nm(const JointErrors& errors, const Dynamics& dynamics,
                             double dt_s) override {
     // After lost frames the current error is applied to each missed period.
-    const long periods = std::clamp(std::lround(dt_s / period_s), 1L, 5L);
+    const long periods = std::clamp(std::lround(dt_s / period_s), 1L, max_periods);
     for (long k = 0; k < periods; ++k) output_ = loops_.step(errors.error_rad);
     sim::loop_shaping::align(dynamics.inertia, hinges_, params_.shape, alignment_);
     torque_ = params_.gravity * dynamics.gravity;
@@ -81,16 +85,17 @@ class LoopShaping : public JointLaw {
         alignment_(model.coordinates(), model.coordinates()),
         factor_(model.coordinates()),
         output_(VectorXd::Zero(model.coordinates())),
-        rest_(VectorXd::Zero(holding_.rows())),
+        initial_state_(VectorXd::Zero(holding_.rows())),
         torque_(output_) {}
 
   static constexpr double period_s = 0.002;  ///< of sensor frames
+  static constexpr long max_periods = 5;     ///< chosen: of lost frames
   LawParams params_;
   std::vector<sim::loop_shaping::Hinge> hinges_;
   sim::loop_shaping::Sampled loops_;
   Eigen::MatrixXd holding_, alignment_;
   Eigen::LLT<Eigen::MatrixXd> factor_;
-  VectorXd output_, rest_, torque_;
+  VectorXd output_, initial_state_, torque_;
 };
 
 class Pd : public JointLaw {

@@ -15,7 +15,7 @@ enum class Law {
   pd  ///< for comparison: τ = H₀ (k_p e + k_d ė) + w_G τ_G, H₀: diagonal of H at the start
 };
 
-/// Gains of the laws; meanings: PullerFollower::Params.
+/// Gains of the laws; described in PullerFollower::Params.
 struct LawParams {
   double kp_per_s2 = 225, kd_per_s = 30, ki_per_s3 = 1000;
   double integral_rad_s = 0.1;

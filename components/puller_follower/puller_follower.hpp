@@ -20,8 +20,8 @@
 ///
 /// Control starts at the current joint positions, velocities and torques, and guides the joints to
 /// the target. It restarts after missing frames and after a tendon was slack. While a tendon is
-/// slack, the plant takes it up, and the joints are held. A joint whose motors saturate, under a
-/// load or after the machine stopped, is braked until all joints are at rest: a closed loop with
+/// slack, the plant winds it up, and the joints are held. A joint whose motors saturate, under a
+/// load or after the computer stalled, is braked until all joints are at rest: a closed loop with
 /// saturated motors would oscillate between the joint stops.
 namespace control {
 
@@ -118,7 +118,7 @@ class PullerFollower {
  private:
   enum class Phase { idle, braking, holding, tracking };
   bool read_sensors(const erp::SensorFrame& frame, double dt_s);
-  Phase next() const;
+  Phase next_phase() const;
   erp::ActuatorCommand brake(bool continues, double dt_s);
   void report_saturation() const;
   erp::ActuatorCommand track(bool continues, double dt_s);
@@ -133,8 +133,8 @@ class PullerFollower {
   std::vector<sim::loop_shaping::Hinge> hinges_;
   std::vector<JointDrive> drives_;
   std::unique_ptr<JointLaw> law_;
-  std::vector<sim::JointReading> now_;
-  std::vector<sim::JointMotion> desired_, held_;
+  std::vector<sim::JointReading> measured_;
+  std::vector<sim::JointMotion> desired_, holding_pose_;
   JointErrors errors_;
   Dynamics dynamics_;
   Eigen::LLT<Eigen::MatrixXd> factor_;

@@ -11,26 +11,26 @@
 namespace reference {
 namespace {
 
-constexpr double missing_s = 0.05;  // chosen: longer gaps between frames count as missing frames
+constexpr double max_frame_gap_s = 0.05;  // chosen: a longer gap means missing frames
 
 std::vector<sim::TimedPose> poses_of(const JointPlayer::Params& params, const erp::Robot& robot) {
   const auto folder = std::filesystem::path(params.place.file).parent_path();
   auto poses = sim::poses_of(recording::read_table((folder / params.file).string()), robot);
   if (params.loop && poses.size() > 1) {
-    const double way_s = poses[1].time_s - poses[0].time_s;
-    poses.push_back({poses.back().time_s + way_s, poses.front().pose});
+    const double return_s = poses[1].time_s - poses[0].time_s;
+    poses.push_back({poses.back().time_s + return_s, poses.front().pose});
   }
   return poses;
 }
 
 void check_range(const sim::JointPath& path, std::span<const erp::Joint> joints) {
-  const auto out = sim::leaves_range(path, joints);
-  if (!out) return;
-  const erp::Joint& joint = joints[out->joint];
+  const auto violation = sim::leaves_range(path, joints);
+  if (!violation) return;
+  const erp::Joint& joint = joints[violation->joint];
   throw std::invalid_argument(
       fmt::format("at {:.2f} s the path moves joint \"{}\" to {:.3f} rad, outside {} … {}; stop in "
                   "the poses (via=\"rest\"), or keep them farther from its stops",
-                  out->time_s, joint.name, out->at_rad, joint.min_rad, joint.max_rad));
+                  violation->time_s, joint.name, violation->at_rad, joint.min_rad, joint.max_rad));
 }
 
 }  // namespace
@@ -45,13 +45,15 @@ JointPlayer::JointPlayer(const Params& params, const erp::Robot& robot)
 
 std::optional<erp::JointTarget> JointPlayer::step(const erp::SensorFrame& frame, double dt_s,
                                                   const node::Latest<erp::JointState>& state) {
-  if (!state || !names_.read(state.message, frame.stamp_ns, now_)) return std::nullopt;
-  const bool missed = dt_s > missing_s;
+  if (!state || !names_.read(state.message, frame.stamp_ns, measured_)) return std::nullopt;
+  const bool missed = dt_s > max_frame_gap_s;
   catching_up_s_ += dt_s;
-  on_path_ = on_path_ || (begun_ && catching_up_s_ >= catch_up_.duration_s());
+  on_path_ = on_path_ || (has_begun_ && catching_up_s_ >= catch_up_.duration_s());
   if (on_path_ && !missed) path_s_ += dt_s;
   update_reference();
-  if (!begun_ || missed || joints::apart_rad(now_, reference_) > params_.lost_rad) begin_catch_up();
+  if (!has_begun_ || missed ||
+      joints::largest_rotation_rad(measured_, reference_) > params_.lost_rad)
+    begin_catch_up();
   erp::JointTarget target;
   names_.write(reference_, target);
   return target;
@@ -67,9 +69,9 @@ void JointPlayer::update_reference() {
 /// Starts a transition from the robot's current position and velocity to the path.
 void JointPlayer::begin_catch_up() {
   path_.at(path_s_, reference_);
-  catch_up_ = joints::catch_up(now_, reference_, params_.start_rad_per_s);
+  catch_up_ = joints::catch_up(measured_, reference_, params_.start_rad_per_s);
   catching_up_s_ = 0;
-  begun_ = true;
+  has_begun_ = true;
   update_reference();
 }
 

@@ -13,7 +13,7 @@
 ///
 /// It begins at the robot's current position and moves from there to the first pose at no more than
 /// `start_rad_per_s`. If the robot is farther than `lost_rad` from the reference (it was moved or
-/// restarted), or after missing frames (the plant was absent), the motion resumes from the robot's
+/// restarted), or after missing frames (the plant did not run), the motion resumes from the robot's
 /// current position and velocity: catch_up.hpp. The path time does not advance during missing
 /// frames and before the first pose is reached.
 namespace reference {
@@ -63,10 +63,10 @@ class JointPlayer {
   joints::Names names_;
   sim::JointPath path_;
   sim::CatchUp catch_up_;
-  std::vector<sim::JointReading> now_;
+  std::vector<sim::JointReading> measured_;
   std::vector<sim::JointMotion> reference_;
-  bool begun_ = false, on_path_ = false;   ///< on_path_: the first pose has been reached
-  double path_s_ = 0, catching_up_s_ = 0;  ///< time on the path; time since the catch-up began
+  bool has_begun_ = false, on_path_ = false;  ///< on_path_: the first pose has been reached
+  double path_s_ = 0, catching_up_s_ = 0;     ///< time on the path; time since the catch-up began
 };
 
 }  // namespace reference

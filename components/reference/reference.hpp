@@ -48,20 +48,20 @@ class Reference {
                            : t_s_;
     OutMessage out;
     for (const auto& column : trajectory_.columns())
-      add(out, column.actuator, column.mode_at(t_s), column.at(t_s));
+      append(out, column.actuator, column.mode_at(t_s), column.at(t_s));
     for (const auto& signal : params_.signals)
-      add(out, signal.actuator, signal.mode, signal.at(t_s_));
+      append(out, signal.actuator, signal.mode, signal.at(t_s_));
     return out;
   }
 
  private:
   static void check(const erp::Robot& robot, const std::string& actuator) {
-    for (const auto& known : robot.actuators)
-      if (known.name == actuator) return;
+    for (const auto& candidate : robot.actuators)
+      if (candidate.name == actuator) return;
     throw std::invalid_argument("reference: robot \"" + robot.name + "\" has no actuator \"" +
                                 actuator + "\"; name one of its actuators");
   }
-  static void add(OutMessage& out, const std::string& name, erp::Mode mode, double value) {
+  static void append(OutMessage& out, const std::string& name, erp::Mode mode, double value) {
     erp::ActuatorReference reference{};
     erp::assign(reference.name, name);
     reference.mode = static_cast<std::uint8_t>(mode);

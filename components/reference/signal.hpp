@@ -6,12 +6,12 @@
 #include "interfaces/values.hpp"
 #include "interfaces/xml/fields.hpp"
 
-/// One test signal for one actuator, t seconds after the component began:
+/// Test signal of one actuator as a function of the time t since the first frame, in s:
 ///
 ///   constant   offset
 ///   step       offset; from start_s on offset + amplitude
 ///   sine       offset + amplitude sin(2π f (t − start_s))
-///   sweep      the same, f rising linearly from frequency_Hz to end_frequency_Hz in duration_s
+///   sweep      as sine, with f rising linearly from frequency_Hz to end_frequency_Hz in duration_s
 namespace reference {
 
 enum class Shape { constant, step, sine, sweep };
@@ -61,9 +61,10 @@ struct Signal {
         break;
     }
     // φ(t) = 2π ∫ f dt with f = f0 + (f1 − f0) t / T
-    const double rise = duration_s > 0 ? (end_frequency_Hz - frequency_Hz) / duration_s : 0;
-    return offset +
-           amplitude * std::sin(2 * std::numbers::pi * (frequency_Hz + 0.5 * rise * t) * t);
+    const double frequency_slope =
+        duration_s > 0 ? (end_frequency_Hz - frequency_Hz) / duration_s : 0;
+    return offset + amplitude * std::sin(2 * std::numbers::pi *
+                                         (frequency_Hz + 0.5 * frequency_slope * t) * t);
   }
 };
 

@@ -50,8 +50,8 @@ std::size_t Trajectory::Column::row_before(double t_s) const {
 double Trajectory::Column::at(double t_s) const {
   const std::size_t k = row_before(t_s);
   if (k + 1 >= value.size() || t_s <= time_s[k] || mode[k] != mode[k + 1]) return value[k];
-  const double part = (t_s - time_s[k]) / (time_s[k + 1] - time_s[k]);
-  return value[k] + part * (value[k + 1] - value[k]);
+  const double fraction = (t_s - time_s[k]) / (time_s[k + 1] - time_s[k]);
+  return value[k] + fraction * (value[k + 1] - value[k]);
 }
 
 erp::Mode Trajectory::Column::mode_at(double t_s) const { return mode[row_before(t_s)]; }

@@ -4,8 +4,9 @@
 
 #include "interfaces/values.hpp"
 
-/// A trajectory file: CSV with `time_s` and, per actuator, `<a>.mode` and `<a>.reference`;
-/// linear between rows. Before the first and after the last row the value is constant.
+/// A trajectory file: CSV with `time_s` and, per actuator, `<a>.mode` and `<a>.reference`. Values
+/// are interpolated linearly between rows. Before the first and after the last row the value is
+/// constant.
 namespace reference {
 
 class Trajectory {

@@ -7,11 +7,11 @@ namespace replay {
 namespace {
 
 constexpr std::int64_t poll_ns = 1'000'000;
-constexpr std::int64_t repeat_ns =
-    200'000'000;  // chosen: lockstep, repeats a frame whose answer was lost
+constexpr std::int64_t repeat_ns = 200'000'000;  // chosen: lockstep, time until a frame is repeated
+constexpr std::size_t clock_period_frames = 50;  // 10 Hz
 
 /// The number of frames in a run of `duration_s`; all frames if it is 0.
-std::size_t end_of(const Frames& frames, double duration_s) {
+std::size_t number_of_frames(const Frames& frames, double duration_s) {
   if (duration_s <= 0) return frames.size();
   const auto limit = frames.at(0).stamp_ns + std::llround(1e9 * duration_s);
   std::size_t k = 0;
@@ -26,7 +26,7 @@ ReplayNode::ReplayNode(const Params& params, const erp::Robot&, node::Node& node
       frames_(params.file),
       frame_out_(node.advertise<erp::EcuFrame>()),
       clock_out_(node.advertise<erp::Clock>()),
-      end_(end_of(frames_, node.options().duration_s)),
+      end_(number_of_frames(frames_, node.options().duration_s)),
       recorded_start_ns_(frames_.at(0).stamp_ns) {
   node.on_activate([this] {
     start_ns_ = node::monotonic_ns();
@@ -67,7 +67,7 @@ void ReplayNode::play_next() {
     publish_frame();
   }
   ++next_;
-  if (finished || next_ % 50 == 0) {
+  if (finished || next_ % clock_period_frames == 0) {
     erp::Clock clock;
     clock.stamp_ns = frame_.stamp_ns;
     clock.finished = finished;

@@ -5,8 +5,8 @@
 #include "components/replay/frames.hpp"
 #include "interfaces/robot/robot.hpp"
 
-/// Acts as the device: publishes the ecu_frames of a recording at their recorded pace, or in lockstep
-/// one per command. It receives commands but ignores their content.
+/// Acts as the device: publishes the ecu_frames of a recording at their recorded rate, or in
+/// lockstep one per command. It receives commands but ignores their content.
 namespace replay {
 
 class ReplayNode {

@@ -26,9 +26,9 @@ Session session_of(const Sensorimotor::Params& params, const erp::Robot& robot, 
   if (params.learned.empty()) return {options, LearnedMap(eye.senses(), muscles), std::move(goals)};
   options.twitches = 0;
   const auto file = xml::read<LearnedMapFile>(xml::resolved(params.learned, params.place.file));
-  auto before = goals_of(file, eye.senses());
-  for (Goal& goal : before) goal.errors.clear();
-  return {options, learned_map_of(file, eye.senses(), muscles), std::move(before)};
+  auto earlier_goals = goals_of(file, eye.senses());
+  for (Goal& goal : earlier_goals) goal.errors.clear();
+  return {options, learned_map_of(file, eye.senses(), muscles), std::move(earlier_goals)};
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ Sensorimotor::Sensorimotor(const Params& params, const erp::Robot& robot, node::
       session_(session_of(params, robot, eye_)) {}
 
 /// Uses the largest spot of each camera. Skips the instant if a camera has no spot.
-void Sensorimotor::see(const erp::ImagePoint& points) {
+void Sensorimotor::on_image(const erp::ImagePoint& points) {
   Eigen::VectorXd senses = Eigen::VectorXd::Zero(eye_.senses());
   std::vector<double> largest_px(static_cast<std::size_t>(eye_.senses()) / 2);
   for (const erp::ImagePointSample& point : erp::samples(points.points)) {
@@ -60,8 +60,8 @@ erp::ActuatorCommand Sensorimotor::step(const erp::SensorFrame& frame, double dt
                                         const node::Latest<erp::ImagePoint>& points) {
   time_s_ += dt_s;
   const double age_s = 1e-9 * static_cast<double>(frame.stamp_ns - points->stamp_ns);
-  if (points && points->stamp_ns != seen_ns_ && age_s <= params_.stale_s)
-    seen_ns_ = points->stamp_ns, see(points.message);
+  if (points && points->stamp_ns != last_image_ns_ && age_s <= params_.stale_s)
+    last_image_ns_ = points->stamp_ns, on_image(points.message);
   const Eigen::VectorXd& motors_N = session_.motors_N(time_s_);
   erp::ActuatorCommand command;
   for (std::size_t a = 0; a < robot_.actuators.size(); ++a) {
@@ -83,7 +83,7 @@ void Sensorimotor::report_progress() {
                  fmt::format("{} of {}: error {:.4f} in the first trial, {:.4f} in the last",
                              goals_reported_, goals.size(), errors.front(), errors.back()));
     node_.show("goals", static_cast<double>(goals_reported_));
-    write();
+    save_map();
   }
   if (session_.unseen() > 0 && !unseen_reported_) {
     unseen_reported_ = true;
@@ -103,11 +103,11 @@ void Sensorimotor::report_progress() {
     done_reported_ = true;
     node_.report(erp::Severity::info, "session", "done",
                  "all goals are finished; the muscles rest");
-    write();
+    save_map();
   }
 }
 
-void Sensorimotor::write() const {
+void Sensorimotor::save_map() const {
   if (params_.save.empty()) return;
   node::write_or_report(node_, xml::resolved(params_.save, params_.place.file),
                         [&](const std::string& file) {

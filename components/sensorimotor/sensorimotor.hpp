@@ -46,9 +46,9 @@ class Sensorimotor {
                             const node::Latest<erp::ImagePoint>& points);
 
  private:
-  void see(const erp::ImagePoint& points);
+  void on_image(const erp::ImagePoint& points);
   void report_progress();
-  void write() const;
+  void save_map() const;
 
   Params params_;
   const erp::Robot& robot_;
@@ -56,7 +56,7 @@ class Sensorimotor {
   sim::sensorimotor::Eye eye_;
   sim::sensorimotor::Session session_;
   double time_s_ = 0;
-  std::int64_t seen_ns_ = 0;
+  std::int64_t last_image_ns_ = 0;
   std::size_t goals_reported_ = 0;
   bool done_reported_ = false, unseen_reported_ = false, limited_reported_ = false;
 };

@@ -9,12 +9,11 @@
 namespace sim {
 namespace {
 
-constexpr std::int64_t tick_ns = 2'000'000;       // the ECUs' period
-constexpr std::int64_t make_up_ns = 200'000'000;  // chosen: realtime, largest delay that is made up
-constexpr std::int64_t repeat_ns =
-    200'000'000;                            // chosen: lockstep, repetition if an answer is lost
-constexpr std::uint64_t pose_period = 10;   // ticks: body poses at 50 Hz
-constexpr std::uint64_t clock_period = 50;  // ticks: 10 Hz
+constexpr std::int64_t tick_ns = 2'000'000;            // the ECUs' period
+constexpr std::int64_t max_catch_up_ns = 200'000'000;  // chosen: longest delay that is caught up
+constexpr std::int64_t repeat_ns = 200'000'000;  // chosen: lockstep, time until a frame is repeated
+constexpr std::uint64_t pose_period_ticks = 10;  // body poses at 50 Hz
+constexpr std::uint64_t clock_period_ticks = 50;  // 10 Hz
 
 constexpr double tick_s = 1e-9 * tick_ns;
 
@@ -69,7 +68,7 @@ SimNode::SimNode(const Params& params, const erp::Robot& robot, node::Node& node
   erp::assign(imu_frame_.robot, robot.name);
   erp::assign(imu_frame_.source, "sim");
   node.on_activate([this] {
-    began_ns_ = node::monotonic_ns();
+    activated_ns_ = node::monotonic_ns();
     ecus_.measure(world_);
     if (external_) external_->measure(world_);
     if (bus_) bus_->send_boot();
@@ -82,7 +81,7 @@ SimNode::SimNode(const Params& params, const erp::Robot& robot, node::Node& node
     });
   else
     node.every(
-        tick_ns / steps_per_tick(), [this] { step(); }, external_ ? 0 : make_up_ns);
+        tick_ns / steps_per_tick(), [this] { step(); }, external_ ? 0 : max_catch_up_ns);
 }
 
 void SimNode::join_bus_as_device() {
@@ -130,7 +129,7 @@ void SimNode::report_external() {
 }
 
 void SimNode::on_command(const erp::EcuCommand& command) {
-  // Gains sent before this command are already waiting: they are applied first, in every run.
+  // Gains published before this command are in the queue. They are applied first, in every run.
   parameter_in_->poll(true);
   if (!node_.clock().lockstep()) return ecus_.receive(command);
   if (command.answers != frame_.sequence) return;
@@ -138,8 +137,8 @@ void SimNode::on_command(const erp::EcuCommand& command) {
   tick();
 }
 
-/// With external ECUs the world advances in steps between their periods. They cannot run faster to
-/// make up for a delay, so the world does not either.
+/// With external ECUs the world advances in steps between their periods. They cannot run faster
+/// after a delay, so the world does not run faster either.
 int SimNode::steps_per_tick() const { return external_ ? ExternalEcus::steps_per_tick : 1; }
 
 void SimNode::step() {
@@ -159,7 +158,7 @@ void SimNode::tick() {
                      xml::Codec<double>::write(load->mass_kg) + " kg");
   if (external_) report_external();
   else ecus_.tick(world_);
-  watch_world();
+  check_world();
   ++ticks_;
   if (at_end()) node_.finish();
   else measure_and_publish();
@@ -170,10 +169,10 @@ void SimNode::measure_and_publish() {
   frame_.sequence = ticks_;
   frame_.stamp_ns = node_.clock().now_ns();
   if (!external_)
-    ecus_.fill(frame_), publish_frame();  // first, because the control loop waits for it
+    ecus_.fill(frame_), publish_frame();  // published first: the control loop waits for it
   publish_truth();
   publish_imus();
-  if (ticks_ % clock_period == 0) publish_clock(false);
+  if (ticks_ % clock_period_ticks == 0) publish_clock(false);
 }
 
 void SimNode::publish_frame() {
@@ -193,7 +192,7 @@ void SimNode::publish_truth() {
   joints_.stamp_ns = frame_.stamp_ns;
   joints_.sequence = frame_.sequence;
   joints_out_.publish_numbered(joints_);
-  if (ticks_ % pose_period) return;
+  if (ticks_ % pose_period_ticks) return;
   world_.fill(bodies_);
   bodies_.stamp_ns = frame_.stamp_ns;
   bodies_out_.publish(bodies_);
@@ -213,7 +212,7 @@ void SimNode::report_once(std::size_t actuator, const std::string& code, const s
 }
 
 /// Reports numerical problems once each; ends the simulation if velocities are not finite.
-void SimNode::watch_world() {
+void SimNode::check_world() {
   const std::size_t count = world_.robot().actuators.size();
   for (std::size_t k = 0; k < count; ++k) {
     const Rope* rope = world_.rope(static_cast<int>(k));
@@ -243,7 +242,7 @@ void SimNode::publish_clock(bool finished) {
   if (!clock_out_) return;
   erp::Clock clock;
   clock.stamp_ns = static_cast<std::int64_t>(ticks_) * tick_ns;
-  const auto elapsed_ns = node::monotonic_ns() - began_ns_;
+  const auto elapsed_ns = node::monotonic_ns() - activated_ns_;
   clock.real_time_factor =
       elapsed_ns > 0 ? static_cast<double>(clock.stamp_ns) / static_cast<double>(elapsed_ns) : 0;
   clock.finished = finished;

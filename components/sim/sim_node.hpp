@@ -14,16 +14,16 @@
 #include "sim/world/virtual_ecus.hpp"
 #include "sim/world/world.hpp"
 
-/// The simulator as the device of a graph: the world of robot.xml with the virtual ECUs that run the
-/// firmware. Every 2 ms it measures, publishes an ecu_frame and simulates a tick with the commands
-/// received so far.
+/// The simulator as the device of a graph: the world of robot.xml with the virtual ECUs that run
+/// the firmware. Every 2 ms it measures, publishes an ecu_frame and simulates a tick with the
+/// commands received so far.
 ///
-///   realtime   one tick per 2 ms of the clock; a delay of up to 0.2 s is made up at twice the rate,
-///              a longer one is skipped and counted as overruns
-///   lockstep   a tick follows the command that answers the last frame, without waiting for the clock
+///   realtime   one tick per 2 ms of the clock; after a delay of up to 0.2 s ticks run at
+///              twice the rate; a longer delay is skipped and counted as overruns
+///   lockstep   a tick follows as soon as the command that answers the last frame arrives
 ///
-/// With `bus` set it simulates the robot on its CAN buses instead, and a gateway is the device. With
-/// `converter_port` or `converter_lines` set its ECUs are separate programs on those buses
+/// With `bus` set it simulates the robot on its CAN buses instead, and a gateway is the device.
+/// With `converter_port` or `converter_lines` set its ECUs are separate programs on those buses
 /// (external_ecus.hpp).
 namespace sim {
 
@@ -80,7 +80,7 @@ class SimNode {
   void repeat_frame();
   void publish_truth();
   void publish_imus();
-  void watch_world();
+  void check_world();
   void report_once(std::size_t actuator, const std::string& code, const std::string& text);
   void publish_clock(bool finished);
   void on_command(const erp::EcuCommand& command);
@@ -107,7 +107,7 @@ class SimNode {
   erp::ImuFrame imu_frame_;
   std::uint64_t ticks_ = 0, end_ticks_;
   int steps_ = 0;
-  std::int64_t began_ns_ = 0, published_ns_ = 0;
+  std::int64_t activated_ns_ = 0, published_ns_ = 0;
 };
 
 }  // namespace sim

@@ -15,6 +15,8 @@ namespace {
 using namespace sim::synergy;
 using sim::Vec3;
 
+constexpr double max_frame_gap_s = 0.1;  // chosen: after a longer gap the trial restarts
+
 BankFile checked_bank(const Synergy::Params& params) {
   auto file = xml::read<BankFile>(xml::resolved(params.bank, params.place.file));
   check(file);
@@ -34,7 +36,7 @@ Synergy::Synergy(const Params& params, const erp::Robot& robot, node::Node& node
   line_m_ = start_m_ = Eigen::VectorXd::Zero(std::ssize(muscles_));
 }
 
-void Synergy::read(const erp::SensorFrame& frame) {
+void Synergy::read_lines(const erp::SensorFrame& frame) {
   for (std::size_t a = 0; const erp::ActuatorSample& sample : erp::samples(frame.actuators)) {
     if (a == all_line_m_.size()) break;
     if (sample.valid & erp::valid::line) all_line_m_[a] = sample.line_m;
@@ -61,27 +63,27 @@ void Synergy::begin_return(double dt_s) {
     node_.report(erp::Severity::warning, target(), "restarted",
                  fmt::format("no frames for {:.2f} s; the trial restarts", dt_s));
   trial_.reset();
-  way_.emplace(file_.times, time_s_, line_m_);
+  return_path_.emplace(file_.times, time_s_, line_m_);
 }
 
-/// Also true if the hand position is unknown.
-bool Synergy::in_place(const std::optional<Vec3>& hand_m) {
-  const double off_m = hand_m ? (*hand_m - sim::vec(file_.rest_m)).norm() : 0;
-  const bool in_place = off_m <= back_m;
-  if (!in_place && !displaced_)
+/// True if the hand is at the start position or its position is unknown.
+bool Synergy::is_at_start(const std::optional<Vec3>& hand_m) {
+  const double distance_m = hand_m ? (*hand_m - sim::vec(file_.rest_m)).norm() : 0;
+  const bool at_start = distance_m <= back_m;
+  if (!at_start && !displaced_)
     node_.report(
         erp::Severity::warning, target(), "displaced",
         fmt::format(
             "the hand is {:.0f} mm from the start position of the training, at most {:.0f} mm are "
             "allowed; no plan begins until the robot is repositioned",
-            1e3 * off_m, 1e3 * back_m));
-  displaced_ = !in_place;
-  return in_place;
+            1e3 * distance_m, 1e3 * back_m));
+  displaced_ = !at_start;
+  return at_start;
 }
 
-void Synergy::begin() {
+void Synergy::begin_trial() {
   Blend blend = bank_.blend(sim::vec(params_.targets[target_].at_m));
-  credits_ = std::move(blend.credits), seen_ = true;
+  credits_ = std::move(blend.credits), hand_was_known_ = true;
   trial_.emplace(
       std::move(blend.plan), file_.times, params_.noise,
       sim::training_loop::random_stream(static_cast<std::uint64_t>(params_.seed), target_)());
@@ -89,12 +91,12 @@ void Synergy::begin() {
 
 void Synergy::track_hand(const std::optional<Vec3>& hand_m) {
   if (hand_m) trial_->see(time_s_, *hand_m);
-  seen_ = seen_ && hand_m;
-  if (trial_->done()) end();
+  hand_was_known_ = hand_was_known_ && hand_m;
+  if (trial_->done()) end_trial();
 }
 
-void Synergy::end() {
-  if (seen_) {
+void Synergy::end_trial() {
+  if (hand_was_known_) {
     TrialResult result = result_of(*trial_, file_.bottle, sim::vec(file_.rest_m),
                                    sim::vec(params_.targets[target_].at_m));
     report_result(result);
@@ -134,15 +136,15 @@ void Synergy::learn(TrialResult result) {
 
 erp::ActuatorCommand Synergy::step(const erp::SensorFrame& frame, double dt_s,
                                    const node::Latest<erp::BodyPose>& bodies) {
-  constexpr double most_gap_s = 0.1;  // longest gap without frames; chosen
-  read(frame);
+  read_lines(frame);
   time_s_ += dt_s;
-  if (!begun_ || dt_s > most_gap_s) begun_ = true, begin_return(dt_s);
+  if (!has_begun_ || dt_s > max_frame_gap_s) has_begun_ = true, begin_return(dt_s);
   const auto hand = hand_m(bodies);
   if (trial_) track_hand(hand);
-  if (way_ && way_->done(time_s_)) way_.reset();
-  if (!way_ && !trial_ && target_ < params_.targets.size() && in_place(hand)) begin();
-  if (way_) return command(way_->at(time_s_));
+  if (return_path_ && return_path_->done(time_s_)) return_path_.reset();
+  if (!return_path_ && !trial_ && target_ < params_.targets.size() && is_at_start(hand))
+    begin_trial();
+  if (return_path_) return command(return_path_->at(time_s_));
   return command(trial_ ? trial_->step(time_s_) : start_m_);
 }
 

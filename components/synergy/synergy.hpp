@@ -7,12 +7,12 @@
 #include "sim/learning/synergy/bank_file.hpp"
 
 /// Strikes targets one after the other with the motor plans of a bank (paper, 5.5), open loop. Each
-/// plan starts from the line lengths at the start.
+/// plan starts from the initial line lengths.
 ///
 /// If the pose of the hand's body is known, each trial is evaluated, and the bank learns from it as
 /// in the training. No plan begins while the hand is away from the start position of the training:
-/// bones that only muscles hold may rest elsewhere with the same line lengths, and plans would
-/// miss.
+/// bones that are held only by muscles may rest at another position with the same line lengths, and
+/// plans would miss.
 namespace control {
 
 /// `<target at_m="0.35 -0.2 0.1"/>`: the centre of a bottle, in the world.
@@ -58,13 +58,13 @@ class Synergy {
                             const node::Latest<erp::BodyPose>& bodies);
 
  private:
-  void read(const erp::SensorFrame& frame);
+  void read_lines(const erp::SensorFrame& frame);
   std::optional<sim::Vec3> hand_m(const node::Latest<erp::BodyPose>& bodies) const;
   void begin_return(double dt_s);
   void track_hand(const std::optional<sim::Vec3>& hand_m);
-  bool in_place(const std::optional<sim::Vec3>& hand_m);
-  void begin();
-  void end();
+  bool is_at_start(const std::optional<sim::Vec3>& hand_m);
+  void begin_trial();
+  void end_trial();
   void report_result(const sim::synergy::TrialResult& result);
   void learn(sim::synergy::TrialResult result);
   std::string target() const { return "target " + std::to_string(target_ + 1); }
@@ -76,17 +76,18 @@ class Synergy {
   sim::synergy::BankFile file_;
   sim::synergy::Bank bank_;
   std::vector<std::size_t> muscles_;
-  std::vector<double> all_line_m_;               ///< by actuator
-  Eigen::VectorXd line_m_, start_m_;             ///< by learned muscle: now; at the start
-  std::optional<sim::synergy::ReturnPath> way_;  ///< return before the first target and after a gap
+  std::vector<double> all_line_m_;    ///< by actuator
+  Eigen::VectorXd line_m_, start_m_;  ///< by learned muscle: measured; initial
+  std::optional<sim::synergy::ReturnPath>
+      return_path_;  ///< return before the first target and after a gap
   std::optional<sim::synergy::Trial> trial_;
   std::vector<double> credits_;
-  bool seen_ = true;        ///< the hand position was known throughout the trial
-  bool displaced_ = false;  ///< the hand is away from the start position
+  bool hand_was_known_ = true;  ///< the hand position was known throughout the trial
+  bool displaced_ = false;      ///< the hand is away from the start position
   std::size_t target_ = 0;
   int evaluated_ = 0, struck_ = 0;
   double time_s_ = 0;
-  bool begun_ = false;
+  bool has_begun_ = false;
 };
 
 }  // namespace control

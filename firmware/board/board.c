@@ -48,12 +48,12 @@ unsigned ecu_board_period(ecu_board* board, const board_period* period, int16_t*
   return ecu_link_pack(&board->link, &board->report, false, frames);
 }
 
-bool ecu_board_awaits_robot(const ecu_board* board, const board_readings* last) {
-  return last->turn != 0u && last->turn == board->turn;
+bool ecu_board_awaits_robot(const ecu_board* board, const board_readings* last_readings) {
+  return last_readings->turn != 0u && last_readings->turn == board->turn;
 }
 
-bool ecu_board_awaits_host(const ecu_board* board, const board_readings* last) {
-  return ecu_board_awaits_robot(board, last) && !board->link.answered;
+bool ecu_board_awaits_host(const ecu_board* board, const board_readings* last_readings) {
+  return ecu_board_awaits_robot(board, last_readings) && !board->link.answered;
 }
 
 unsigned ecu_board_repeat(ecu_board* board, bus_frame* frames) {

@@ -1,13 +1,14 @@
 #include "firmware/board/outbox.h"
 
 static void keep_emergencies(ecu_outbox* outbox) {
-  uint8_t kept = 0;
+  uint8_t emergencies = 0;
   for (uint8_t i = 0; i < outbox->count; ++i) {
-    const bool urgent = outbox->frames[i].id >> 7 == FRAME_EMERGENCY;
-    if (urgent && kept < OUTBOX_EMERGENCIES_MAX) outbox->frames[kept++] = outbox->frames[i];
+    const bool is_emergency = outbox->frames[i].id >> 7 == FRAME_EMERGENCY;
+    if (is_emergency && emergencies < OUTBOX_EMERGENCIES_MAX)
+      outbox->frames[emergencies++] = outbox->frames[i];
     else ++outbox->dropped;
   }
-  outbox->count = kept;
+  outbox->count = emergencies;
 }
 
 void outbox_put(ecu_outbox* outbox, const bus_frame* frames, unsigned count) {

@@ -1,5 +1,5 @@
-/* Frames waiting to be sent, for a controller that sends more slowly than frames are produced: an
- * EMERGENCY waits until it is sent; of all other frames only those of the newest period are kept. */
+/* Transmit queue of an ECU, for a bus that is slower than the ECU: an EMERGENCY is kept until it is
+ * sent; all other frames are kept only from the newest period. */
 #ifndef ERP_FIRMWARE_OUTBOX_H
 #define ERP_FIRMWARE_OUTBOX_H
 #include "firmware/core/link.h"
@@ -18,11 +18,12 @@ typedef struct {
   uint32_t dropped; /* frames replaced before they were sent, since boot */
 } ecu_outbox;
 
-/* Adds the frames of a period, highest priority first, at most ECU_LINK_FRAMES_MAX. They replace the
- * frames of earlier periods, except the oldest OUTBOX_EMERGENCIES_MAX emergencies. */
+/* Adds the frames of a period, highest priority first, at most ECU_LINK_FRAMES_MAX. They replace
+ * the frames of earlier periods, except the oldest OUTBOX_EMERGENCIES_MAX emergencies. */
 void outbox_put(ecu_outbox* outbox, const bus_frame* frames, unsigned count);
 
-/* outbox_next: the next frame to send, or null. outbox_sent: removes it after it was taken. */
+/* outbox_next: the next frame to send, or null. outbox_sent: removes that frame after it was
+ * sent. */
 const bus_frame* outbox_next(const ecu_outbox* outbox);
 void outbox_sent(ecu_outbox* outbox);
 

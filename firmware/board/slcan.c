@@ -1,6 +1,6 @@
 #include "firmware/board/slcan.h"
 
-#define HEAD 5u /* t, identifier, size */
+#define HEADER_BYTES 5u /* t, identifier, size */
 
 static int digit_of(char c) {
   if (c >= '0' && c <= '9') return c - '0';
@@ -21,23 +21,23 @@ static int32_t number_at(const char* text, unsigned digits) {
 }
 
 static bool read_frame(const slcan_reader* reader, bus_frame* frame) {
-  if (reader->have < HEAD) return false;
+  if (reader->length < HEADER_BYTES) return false;
   const int32_t id = number_at(reader->line + 1, 3), size = number_at(reader->line + 4, 1);
   if (id < 0 || id > 0x7FF || size < 0 || size > 8) return false;
-  if (reader->have != HEAD + 2u * (unsigned)size) return false;
+  if (reader->length != HEADER_BYTES + 2u * (unsigned)size) return false;
   frame->id = (uint16_t)id;
   frame->size = (uint8_t)size;
   for (unsigned i = 0; i < 8u; ++i) frame->data[i] = 0;
   for (unsigned i = 0; i < frame->size; ++i) {
-    const int32_t byte = number_at(reader->line + HEAD + 2u * i, 2);
+    const int32_t byte = number_at(reader->line + HEADER_BYTES + 2u * i, 2);
     if (byte < 0) return false;
     frame->data[i] = (uint8_t)byte;
   }
   return true;
 }
 
-static slcan_event meaning_of(slcan_reader* reader, bus_frame* frame) {
-  if (reader->have == 0) return SLCAN_NOTHING;
+static slcan_event parse_line(slcan_reader* reader, bus_frame* frame) {
+  if (reader->length == 0) return SLCAN_NOTHING;
   if (reader->line[0] == 'O') return SLCAN_OPEN;
   if (reader->line[0] == 'C') return SLCAN_CLOSE;
   if (reader->line[0] != 't') return SLCAN_NOTHING;
@@ -48,12 +48,12 @@ static slcan_event meaning_of(slcan_reader* reader, bus_frame* frame) {
 
 slcan_event slcan_take(slcan_reader* reader, uint8_t byte, bus_frame* frame) {
   if (byte != '\r') {
-    if (reader->have < SLCAN_LINE_MAX) reader->line[reader->have++] = (char)byte;
+    if (reader->length < SLCAN_LINE_MAX) reader->line[reader->length++] = (char)byte;
     else reader->too_long = true;
     return SLCAN_NOTHING;
   }
-  const slcan_event event = meaning_of(reader, frame);
-  reader->have = 0;
+  const slcan_event event = parse_line(reader, frame);
+  reader->length = 0;
   reader->too_long = false;
   return event;
 }

@@ -3,7 +3,7 @@
  *
  *   tIIIDdd…dd\r   a classic frame: identifier of 3 hexadecimal digits, size of 1, its bytes
  *   O\r  C\r       the host opens and closes the channel
- *   Sn\r …         bit rate and similar commands: no meaning on a serial line, ignored
+ *   Sn\r …         bit rate and similar commands: without effect on a serial line, ignored
  */
 #ifndef ERP_FIRMWARE_SLCAN_H
 #define ERP_FIRMWARE_SLCAN_H
@@ -20,7 +20,7 @@ typedef enum { SLCAN_NOTHING, SLCAN_FRAME, SLCAN_OPEN, SLCAN_CLOSE } slcan_event
 /* The part of a line read so far. Initialize to zero. */
 typedef struct {
   char line[SLCAN_LINE_MAX];
-  uint8_t have;
+  uint8_t length;
   bool too_long;       /* the rest of the current line is ignored */
   uint32_t unreadable; /* lines that start like a frame but are not one */
 } slcan_reader;

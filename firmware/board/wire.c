@@ -1,6 +1,8 @@
 #include "firmware/board/wire.h"
 
+#define WIRE_NONE ((wire_kind)0)
 #define SYNC 0xA5u
+#define HEADER_BYTES 4u /* sync, kind, size, ecu */
 #define READINGS_BYTES (2u + 2u * 12u + 4u * ECU_ANALOG_INPUTS)
 #define DRIVE_BYTES 5u
 #define FAULT_BYTES 4u
@@ -10,11 +12,11 @@
 
 typedef struct {
   uint8_t* bytes;
-  unsigned at;
+  unsigned size;
 } cursor;
 
 static void put(cursor* c, unsigned count, uint32_t value) {
-  for (unsigned i = 0; i < count; ++i) c->bytes[c->at++] = (uint8_t)(value >> (8u * i));
+  for (unsigned i = 0; i < count; ++i) c->bytes[c->size++] = (uint8_t)(value >> (8u * i));
 }
 
 static cursor begin(uint8_t* bytes, wire_kind kind, unsigned size, uint8_t ecu) {
@@ -27,8 +29,8 @@ static cursor begin(uint8_t* bytes, wire_kind kind, unsigned size, uint8_t ecu) 
 }
 
 static unsigned end(cursor* c) {
-  put(c, 1, frame_crc8(c->bytes + 1, c->at - 1u));
-  return c->at;
+  put(c, 1, frame_crc8(c->bytes + 1, c->size - 1u));
+  return c->size;
 }
 
 unsigned wire_pack_readings(uint8_t* bytes, uint8_t ecu, const board_readings* readings) {
@@ -82,56 +84,56 @@ static unsigned size_of(uint8_t kind) {
   }
 }
 
-static wire_kind forget(wire_reader* reader) {
+static wire_kind discard(wire_reader* reader) {
   ++reader->unreadable;
-  reader->have = 0;
-  return (wire_kind)0;
+  reader->length = 0;
+  return WIRE_NONE;
 }
 
 wire_kind wire_take(wire_reader* reader, uint8_t byte) {
-  if (reader->have == 0 && byte != SYNC) return (wire_kind)0;
-  reader->bytes[reader->have++] = byte;
-  if (reader->have < 3) return (wire_kind)0;
+  if (reader->length == 0 && byte != SYNC) return WIRE_NONE;
+  reader->bytes[reader->length++] = byte;
+  if (reader->length < 3) return WIRE_NONE;
   const unsigned size = size_of(reader->bytes[1]);
-  if (size == 0 || reader->bytes[2] != size) return forget(reader);
-  if (reader->have < size + 4u) return (wire_kind)0;
-  if (frame_crc8(reader->bytes + 1, size + 2u) != byte) return forget(reader);
-  reader->have = 0;
+  if (size == 0 || reader->bytes[2] != size) return discard(reader);
+  if (reader->length < size + 4u) return WIRE_NONE;
+  if (frame_crc8(reader->bytes + 1, size + 2u) != byte) return discard(reader);
+  reader->length = 0;
   return (wire_kind)reader->bytes[1];
 }
 
-static uint32_t get(const uint8_t** at, unsigned count) {
+static uint32_t get(const uint8_t** position, unsigned count) {
   uint32_t value = 0;
-  for (unsigned i = 0; i < count; ++i) value |= (uint32_t) * (*at)++ << (8u * i);
+  for (unsigned i = 0; i < count; ++i) value |= (uint32_t) * (*position)++ << (8u * i);
   return value;
 }
 
 uint8_t wire_ecu(const wire_reader* reader) { return reader->bytes[3]; }
 
 void wire_unpack_readings(const wire_reader* reader, board_readings* readings) {
-  const uint8_t* at = reader->bytes + 4;
+  const uint8_t* position = reader->bytes + HEADER_BYTES;
   *readings = (board_readings){0};
-  readings->turn = (uint8_t)get(&at, 1);
+  readings->turn = (uint8_t)get(&position, 1);
   for (unsigned k = 0; k < 2; ++k) {
     ecu_inputs* in = &readings->channel[k];
-    in->encoder_counts = (int32_t)get(&at, 4);
-    in->current_counts = (int16_t)get(&at, 2);
-    in->tension_counts = (uint16_t)get(&at, 2);
-    in->temperature_counts = (uint16_t)get(&at, 2);
-    in->supply_counts = (uint16_t)get(&at, 2);
+    in->encoder_counts = (int32_t)get(&position, 4);
+    in->current_counts = (int16_t)get(&position, 2);
+    in->tension_counts = (uint16_t)get(&position, 2);
+    in->temperature_counts = (uint16_t)get(&position, 2);
+    in->supply_counts = (uint16_t)get(&position, 2);
   }
-  for (unsigned k = 0; k < ECU_ANALOG_INPUTS; ++k) readings->analog[k] = (int32_t)get(&at, 4);
+  for (unsigned k = 0; k < ECU_ANALOG_INPUTS; ++k) readings->analog[k] = (int32_t)get(&position, 4);
 }
 
 void wire_unpack_drive(const wire_reader* reader, int16_t* duty) {
-  const uint8_t* at = reader->bytes + 4;
-  for (unsigned k = 0; k < 2; ++k) duty[k] = (int16_t)get(&at, 2);
+  const uint8_t* position = reader->bytes + HEADER_BYTES;
+  for (unsigned k = 0; k < 2; ++k) duty[k] = (int16_t)get(&position, 2);
 }
 
 uint8_t wire_sample_turn(const wire_reader* reader) { return reader->bytes[4]; }
 
 void wire_unpack_fault(const wire_reader* reader, wire_fault* fault) {
-  const uint8_t* at = reader->bytes + 4;
-  fault->kind = (uint8_t)get(&at, 1);
-  fault->periods = (uint16_t)get(&at, 2);
+  const uint8_t* position = reader->bytes + HEADER_BYTES;
+  fault->kind = (uint8_t)get(&position, 1);
+  fault->periods = (uint16_t)get(&position, 2);
 }

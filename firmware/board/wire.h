@@ -7,10 +7,10 @@
  *                              tension 16, temperature 16, supply 16; four analog inputs of 32
  *   DRIVE     2  ECU -> robot  ecu 8; duty 16, duty 16: both PWM outputs
  *   FAULT     3  robot -> ECU  ecu 8, kind 8, periods 16: a fault injected by a test
- *   SAMPLE    4  ECU -> robot  ecu 8, turn 8 of the readings it has. Request for readings: answered
- *                              by READINGS of each later period, at least of the next one; by the
- *                              current readings if there are none or they are too old; in lockstep
- *                              when all ECUs have sent a SAMPLE
+ *   SAMPLE    4  ECU -> robot  ecu 8, turn 8 of the ECU's last readings. Request for readings. The
+ *                              answer is READINGS of each later period, at least of the next one.
+ *                              If the ECU has no readings or outdated ones, it is the current
+ *                              readings. In lockstep it is sent when all ECUs have sent a SAMPLE
  *
  * A byte that is not part of a valid message is skipped; the next 0xA5 starts a new message.
  */
@@ -27,10 +27,10 @@ extern "C" {
 
 typedef enum { WIRE_READINGS = 1, WIRE_DRIVE = 2, WIRE_FAULT = 3, WIRE_SAMPLE = 4 } wire_kind;
 
-/* Faults that a test injects into a program; the board simulates them. */
+/* Faults that a test injects into an ECU program; the board simulates them. */
 typedef enum {
   WIRE_FAULT_HANG = 1,   /* an endless loop */
-  WIRE_FAULT_BUSY = 2,   /* each of the next periods works for longer than a period */
+  WIRE_FAULT_BUSY = 2,   /* each of the next `periods` computes for longer than a period */
   WIRE_FAULT_BUS_OFF = 3 /* the CAN controller is in bus-off for this number of periods */
 } wire_fault_kind;
 
@@ -48,7 +48,7 @@ unsigned wire_pack_fault(uint8_t* bytes, uint8_t ecu, const wire_fault* fault);
 /* The part of a message read so far. Initialize to zero. */
 typedef struct {
   uint8_t bytes[WIRE_MESSAGE_MAX];
-  uint8_t have;
+  uint8_t length;
   uint32_t unreadable; /* messages with a wrong check value or an unknown kind */
 } wire_reader;
 

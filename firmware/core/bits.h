@@ -7,18 +7,18 @@
 
 typedef struct {
   uint64_t bits;
-  unsigned at;
+  unsigned bit_count;
 } cursor;
 
 static inline void put(cursor* c, unsigned width, uint32_t value) {
   const uint64_t mask = ((uint64_t)1 << width) - 1u;
-  c->bits |= (value & mask) << c->at;
-  c->at += width;
+  c->bits |= (value & mask) << c->bit_count;
+  c->bit_count += width;
 }
 static inline uint32_t take(cursor* c, unsigned width) {
   const uint64_t mask = ((uint64_t)1 << width) - 1u;
-  const uint32_t value = (uint32_t)(c->bits >> c->at & mask);
-  c->at += width;
+  const uint32_t value = (uint32_t)(c->bits >> c->bit_count & mask);
+  c->bit_count += width;
   return value;
 }
 static inline uint8_t take8(cursor* c, unsigned width) { return (uint8_t)take(c, width); }

@@ -29,13 +29,15 @@ typedef struct {
 /* The size on the bus of a bundle of `frames`, 1 to BUNDLE_FRAMES_MAX: 12, 20, 32, 48, 64, 64. */
 uint8_t bundle_size(unsigned frames);
 
-/* Whether `frame` may be added to the bundle. */
-bool bundle_takes(const bus_bundle* bundle, const bus_frame* frame);
+/* True if `frame` may be added to the bundle. */
+bool bundle_accepts(const bus_bundle* bundle, const bus_frame* frame);
 
-/* Packs as many of the first frames as may share a bundle, at least one. Returns how many. */
+/* Packs the largest number of first frames that may share a bundle, at least one. Returns their
+ * number. */
 unsigned bundle_pack(bus_bundle* bundle, const bus_frame* frames, unsigned count);
 
-/* Unpacks into `frames`, room for BUNDLE_FRAMES_MAX. Returns how many; 0: not a valid bundle. */
+/* Unpacks into `frames`, room for BUNDLE_FRAMES_MAX. Returns their number; 0: not a valid
+ * bundle. */
 unsigned bundle_unpack(const bus_bundle* bundle, bus_frame* frames);
 
 #ifdef __cplusplus

@@ -7,9 +7,9 @@
 void ecu_init(ecu_channel* channel) { *channel = (ecu_channel){.state = ECU_STATE_BOOT}; }
 
 void ecu_trip(ecu_channel* channel, ecu_fault fault) {
-  const bool was_well = channel->state != ECU_STATE_FAULT;
+  const bool was_fault_free = channel->state != ECU_STATE_FAULT;
   ecu_apply(channel, ECU_EVENT_TRIP);
-  if (was_well && channel->state == ECU_STATE_FAULT) channel->fault = fault;
+  if (was_fault_free && channel->state == ECU_STATE_FAULT) channel->fault = fault;
 }
 
 static bool is_live(const ecu_channel* channel) {
@@ -22,17 +22,17 @@ bool ecu_is_warning(const ecu_channel* channel) {
 
 void ecu_overran(ecu_channel* channel, bool overran) {
   if (overran) ++channel->overruns;
-  channel->overruns_in_a_row = overran ? channel->overruns_in_a_row + 1u : 0u;
-  if (channel->overruns_in_a_row >= ECU_OVERRUNS_TRIP) ecu_trip(channel, ECU_FAULT_OVERRUN);
+  channel->consecutive_overruns = overran ? channel->consecutive_overruns + 1u : 0u;
+  if (channel->consecutive_overruns >= ECU_OVERRUNS_TRIP) ecu_trip(channel, ECU_FAULT_OVERRUN);
 }
 
 /* ---- commands ---- */
 
-/* Within low .. high, with half a quantization step of tolerance: a value that rounds to the limit
- * is accepted. */
-static bool within(int32_t setpoint, float quantum, float low, float high) {
-  const float value = (float)setpoint * quantum, slack = 0.501f * quantum;
-  return value >= low - slack && value <= high + slack;
+/* True if the set-point is within low .. high, with half a quantization step of tolerance: a value
+ * that rounds to the limit is accepted. */
+static bool is_within(int32_t setpoint, float step, float low, float high) {
+  const float value = (float)setpoint * step, tolerance = 0.501f * step;
+  return value >= low - tolerance && value <= high + tolerance;
 }
 
 static bool is_sane(const ecu_channel* c, ecu_request request, int32_t setpoint) {
@@ -42,13 +42,13 @@ static bool is_sane(const ecu_channel* c, ecu_request request, int32_t setpoint)
     case ECU_REQUEST_ARM:
       return true;
     case ECU_REQUEST_VOLTAGE:
-      return within(setpoint, 1e-3f, -GAIN(c, SUPPLY), GAIN(c, SUPPLY));
+      return is_within(setpoint, 1e-3f, -GAIN(c, SUPPLY), GAIN(c, SUPPLY));
     case ECU_REQUEST_LENGTH:
-      return within(setpoint, GAIN(c, SHAFT_SCALE), GAIN(c, SHAFT_MIN), GAIN(c, SHAFT_MAX));
+      return is_within(setpoint, GAIN(c, SHAFT_SCALE), GAIN(c, SHAFT_MIN), GAIN(c, SHAFT_MAX));
     case ECU_REQUEST_CURRENT:
-      return within(setpoint, 1e-3f, -GAIN(c, CURRENT_LIMIT), GAIN(c, CURRENT_LIMIT));
+      return is_within(setpoint, 1e-3f, -GAIN(c, CURRENT_LIMIT), GAIN(c, CURRENT_LIMIT));
     case ECU_REQUEST_FORCE:
-      return within(setpoint, 1e-3f, 0.0f, GAIN(c, TENSION_LIMIT));
+      return is_within(setpoint, 1e-3f, 0.0f, GAIN(c, TENSION_LIMIT));
   }
   return false;
 }
@@ -64,7 +64,7 @@ static float applied_V(const ecu_channel* c) {
   return GAIN(c, SUPPLY) * (float)c->duty / (float)ECU_DUTY_MAX;
 }
 
-/* A new law starts at the voltage that is applied now: 0 after arming. */
+/* A new law starts at the currently applied voltage: 0 after arming. */
 static void start_law(ecu_channel* channel, ecu_request request, int32_t setpoint) {
   const float error_A = (float)setpoint / 1000.0f - channel->sensed.current_A;
   if (request == ECU_REQUEST_CURRENT)
@@ -72,7 +72,7 @@ static void start_law(ecu_channel* channel, ecu_request request, int32_t setpoin
         (law_current_memory){.integral_V = applied_V(channel), .last_error_A = error_A};
 }
 
-static bool follow(ecu_channel* channel, ecu_request request, int32_t setpoint) {
+static bool accept_setpoint(ecu_channel* channel, ecu_request request, int32_t setpoint) {
   if (ecu_next_state(channel->state, ECU_EVENT_SETPOINT) != ECU_STATE_RUNNING) {
     ++channel->rejected_setpoints;
     return false;
@@ -94,7 +94,7 @@ static bool arm(ecu_channel* channel) {
   return true;
 }
 
-/* A late clear that refers to another fault has no effect. */
+/* A delayed clear that refers to another fault has no effect. */
 static bool clear(ecu_channel* channel, int32_t fault) {
   if (channel->state == ECU_STATE_FAULT && fault != (int32_t)channel->fault) return false;
   ecu_apply(channel, ECU_EVENT_CLEAR);
@@ -112,13 +112,13 @@ bool ecu_command(ecu_channel* channel, ecu_request request, int32_t setpoint) {
     case ECU_REQUEST_ARM:
       return arm(channel);
     default:
-      return follow(channel, request, setpoint);
+      return accept_setpoint(channel, request, setpoint);
   }
 }
 
 /* ---- one period ---- */
 
-static void judge(ecu_channel* c, ecu_fault fault) {
+static void trip_if(ecu_channel* c, ecu_fault fault) {
   if (fault != ECU_FAULT_NONE) ecu_trip(c, fault);
 }
 
@@ -129,21 +129,21 @@ static void check_timeout(ecu_channel* c) {
 }
 
 static float law_V(ecu_channel* c) {
-  const float milli = (float)c->setpoint / 1000.0f;
+  const float setpoint = (float)c->setpoint / 1000.0f;
   switch (c->request) {
     case ECU_REQUEST_VOLTAGE:
-      return milli;
+      return setpoint; /* V */
     case ECU_REQUEST_LENGTH:
       return law_length_V(GAIN(c, LENGTH_KP), (float)c->setpoint * GAIN(c, SHAFT_SCALE),
                           c->sensed.shaft_rad);
     case ECU_REQUEST_CURRENT:
       return law_current_V(&c->current_memory, GAIN(c, CURRENT_KP), GAIN(c, CURRENT_KI),
-                           GAIN(c, CURRENT_KD), milli - c->sensed.current_A, GAIN(c, SUPPLY),
+                           GAIN(c, CURRENT_KD), setpoint - c->sensed.current_A, GAIN(c, SUPPLY),
                            ECU_PERIOD_S);
     case ECU_REQUEST_FORCE: {
       const law_force_gains gains = {GAIN(c, FORCE_K_CURRENT), GAIN(c, FORCE_K_SPEED),
                                      GAIN(c, FORCE_K_TENSION), GAIN(c, FORCE_PREFILTER)};
-      return law_force_V(&gains, milli, c->sensed.current_A, c->sensed.speed_rad_per_s,
+      return law_force_V(&gains, setpoint, c->sensed.current_A, c->sensed.speed_rad_per_s,
                          c->sensed.tension_N);
     }
     default:
@@ -165,8 +165,8 @@ int16_t ecu_tick(ecu_channel* channel, const ecu_inputs* inputs) {
   if (channel->gains_complete) {
     const ecu_fault sensor =
         ecu_sense(&channel->sensed, channel->gains, inputs, applied_V(channel));
-    judge(channel, ecu_strain_tick(&channel->strain, channel->gains, &channel->sensed, inputs));
-    judge(channel, sensor);
+    trip_if(channel, ecu_strain_tick(&channel->strain, channel->gains, &channel->sensed, inputs));
+    trip_if(channel, sensor);
     check_timeout(channel);
   }
   channel->sensed.inputs = *inputs;

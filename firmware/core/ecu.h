@@ -11,7 +11,7 @@
  *            idle, armed, running --fault--> fault (PWM 0, latched) --clear--> idle
  *            armed, running --off--> idle
  *
- * In boot no fault can occur: there are no gains to judge a reading by, and PWM is 0.
+ * In boot no fault can occur, because there are no gains for the checks of readings, and PWM is 0.
  */
 #ifndef ERP_FIRMWARE_ECU_H
 #define ERP_FIRMWARE_ECU_H
@@ -30,8 +30,8 @@ extern "C" {
 #define ECU_DUTY_MAX 1023         /* PWM counts at full supply, either sign; chosen: 11 bits */
 #define ECU_WARN_TICKS 10u        /* 20 ms without a command: warning */
 #define ECU_TIMEOUT_TICKS 25u     /* 50 ms without a command: trip */
-#define ECU_BAD_SETPOINTS_TRIP 5u /* out-of-range set-points in a row */
-#define ECU_OVERRUNS_TRIP 3u      /* control periods overrun in a row */
+#define ECU_BAD_SETPOINTS_TRIP 5u /* consecutive set-points out of range */
+#define ECU_OVERRUNS_TRIP 3u      /* consecutive control periods that were overrun */
 
 typedef enum {
   ECU_STATE_BOOT = 0,
@@ -57,10 +57,10 @@ typedef enum {
 typedef struct {
   ecu_state state;
   ecu_fault fault;
-  ecu_request request; /* in effect: off in boot, idle and fault, arm when armed */
+  ecu_request request; /* in effect; off in boot, idle and fault, arm when armed */
   int32_t setpoint;    /* 0 unless running */
   uint32_t ticks_since_command;
-  uint32_t bad_setpoints;                  /* in a row */
+  uint32_t bad_setpoints;                  /* consecutive */
   uint32_t rejected_setpoints;             /* since initialization */
   uint32_t rejected_commits;               /* since initialization */
   float gains[ECU_PARAMETER_COUNT];        /* in effect */
@@ -72,22 +72,22 @@ typedef struct {
   ecu_strain strain;
   law_current_memory current_memory;
   int16_t duty;
-  uint32_t overruns;          /* since initialization */
-  uint32_t overruns_in_a_row; /* control periods */
+  uint32_t overruns;             /* since initialization */
+  uint32_t consecutive_overruns; /* control periods */
 } ecu_channel;
 
 void ecu_init(ecu_channel* channel);
 
 /* Processes a fresh command. Returns false when it is not accepted. A set-point outside the limits
  * or an unknown request is counted, and the previous set-point stays in effect until it times out;
- * five in a row trip. A mode request in boot, idle or fault is counted and ignored; arm in boot or
- * fault is ignored. */
+ * five consecutive ones trip. A mode request in boot, idle or fault is counted and ignored; arm in
+ * boot or fault is ignored. */
 bool ecu_command(ecu_channel* channel, ecu_request request, int32_t setpoint);
 
-/* Stages one parameter. With `commit` the staged set takes effect as a whole, if every parameter has
- * been written once and the set is plausible (is_sane in gains.c). Returns false when the parameter
- * or the set is rejected: then no value of the set takes effect, the rest of the set is rejected up
- * to and including its commit, and the set must be written again. */
+/* Stages one parameter. With `commit` the staged set takes effect as a whole, if every parameter
+ * has been written once and the set is plausible (is_sane in gains.c). Returns false when the
+ * parameter or the set is rejected. Then no value of the set takes effect, all further values up to
+ * the commit are rejected, and the set must be written again. */
 bool ecu_parameter(ecu_channel* channel, uint8_t index, float value, bool commit);
 
 /* Drops the values staged since the last commit; a new set begins. */
@@ -102,8 +102,8 @@ int16_t ecu_tick(ecu_channel* channel, const ecu_inputs* inputs);
 /* Forces the fault state from outside (corrupt frames, watchdogs). The first cause is kept. */
 void ecu_trip(ecu_channel* channel, ecu_fault fault);
 
-/* To be called once per period: whether the control loop of the previous period was still running
- * when this one began. The third such period in a row trips. */
+/* To be called once per period. `overran`: the control loop of the previous period was still
+ * running when this one began. The third consecutive such period trips. */
 void ecu_overran(ecu_channel* channel, bool overran);
 
 /* Armed or running, and 20 ms or more without a command. */

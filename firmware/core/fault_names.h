@@ -5,9 +5,9 @@
 
 static inline const char* ecu_fault_name(int fault) {
   switch (fault) {
-#define ECU_FAULT_NAME(id, number, words) \
-  case number:                            \
-    return words;
+#define ECU_FAULT_NAME(id, number, text) \
+  case number:                           \
+    return text;
     ECU_FAULTS(ECU_FAULT_NAME)
 #undef ECU_FAULT_NAME
     default:

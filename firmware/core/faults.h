@@ -1,4 +1,4 @@
-/* Why a channel tripped: one list that gives the numbers on the bus and the texts for people.
+/* The causes of a trip: one list of the numbers on the bus and the texts of messages.
  * Numbers are part of the wire format, four bits: append only. */
 #ifndef ERP_FIRMWARE_FAULTS_H
 #define ERP_FIRMWARE_FAULTS_H
@@ -10,18 +10,18 @@
   X(OVER_TENSION, 3, "over-tension")                                          \
   X(SETPOINT, 4, "set-points out of range")                                   \
   X(SENSOR_RANGE, 5, "a sensor at its rail")                                  \
-  X(CORRUPT, 6, "corrupt frames in a row")                                    \
+  X(CORRUPT, 6, "consecutive corrupt frames")                                 \
   X(SENSOR_STUCK, 7, "a sensor that no longer changes while the motor turns") \
-  X(ENCODER, 8, "the encoder does not see the motor turn")                    \
-  X(POTENTIOMETER, 9, "encoder and potentiometer have come apart")            \
-  X(OVERLOAD, 10, "more current for longer than the motor bears (I2t)")       \
+  X(ENCODER, 8, "the encoder does not count while the motor turns")           \
+  X(POTENTIOMETER, 9, "encoder and potentiometer disagree")                   \
+  X(OVERLOAD, 10, "motor overload (I2t)")                                     \
   X(OVER_TEMPERATURE, 11, "over-temperature")                                 \
   X(SUPPLY, 12, "supply voltage too low")                                     \
-  X(OVERRUN, 13, "control periods overrun in a row")                          \
-  X(BUS_OFF, 14, "its CAN controller went off the bus")
+  X(OVERRUN, 13, "consecutive control periods overrun")                       \
+  X(BUS_OFF, 14, "its CAN controller is in bus-off")
 
 typedef enum {
-#define ECU_FAULT_ENUM(id, number, words) ECU_FAULT_##id = (number),
+#define ECU_FAULT_ENUM(id, number, text) ECU_FAULT_##id = (number),
   ECU_FAULTS(ECU_FAULT_ENUM)
 #undef ECU_FAULT_ENUM
       ECU_FAULT_COUNT

@@ -4,7 +4,7 @@
 
 #include "firmware/core/bits.h"
 
-/* ---- envelope ---- */
+/* ---- identifier and check value ---- */
 
 uint16_t frame_identifier(frame_function function, uint8_t ecu) {
   return (uint16_t)((unsigned)function << 7 | (ecu & 0x7Fu));
@@ -34,14 +34,14 @@ bool frame_is_intact(const bus_frame* frame) {
   return frame->size == 8 && frame->id <= 0x7FFu && frame->data[7] == check_value(frame);
 }
 
-static void seal(bus_frame* frame, frame_function function, uint8_t ecu, const cursor* c) {
+static void finish_frame(bus_frame* frame, frame_function function, uint8_t ecu, const cursor* c) {
   frame->id = frame_identifier(function, ecu);
   frame->size = 8;
   for (unsigned i = 0; i < 7; ++i) frame->data[i] = (uint8_t)(c->bits >> (8u * i));
   frame->data[7] = check_value(frame);
 }
 
-static bool unseal(const bus_frame* frame, frame_function low, frame_function high, cursor* c) {
+static bool open_frame(const bus_frame* frame, frame_function low, frame_function high, cursor* c) {
   const frame_function function = frame_function_of(frame);
   if (!frame_is_intact(frame) || function < low || function > high) return false;
   *c = (cursor){0, 0};
@@ -60,7 +60,7 @@ static int32_t take_setpoint(cursor* c) {
   return setpoint < -FRAME_SETPOINT_MAX ? FRAME_SETPOINT_REFUSED : setpoint;
 }
 
-/* ---- the frames ---- */
+/* ---- frames ---- */
 
 void frame_pack_emergency(bus_frame* frame, uint8_t ecu, const frame_emergency* content) {
   cursor c = {0, 0};
@@ -70,12 +70,12 @@ void frame_pack_emergency(bus_frame* frame, uint8_t ecu, const frame_emergency* 
   put(&c, 4, content->reset_cause);
   put(&c, 6, content->version);
   put(&c, 32, content->tick);
-  seal(frame, FRAME_EMERGENCY, ecu, &c);
+  finish_frame(frame, FRAME_EMERGENCY, ecu, &c);
 }
 
 bool frame_unpack_emergency(const bus_frame* frame, frame_emergency* content) {
   cursor c;
-  if (!unseal(frame, FRAME_EMERGENCY, FRAME_EMERGENCY, &c)) return false;
+  if (!open_frame(frame, FRAME_EMERGENCY, FRAME_EMERGENCY, &c)) return false;
   content->boot = take_bit(&c);
   content->channel = take8(&c, 1);
   content->fault = take8(&c, 4);
@@ -93,12 +93,12 @@ void frame_pack_command(bus_frame* frame, uint8_t ecu, const frame_command* cont
   }
   put(&c, 3, content->answers);
   put(&c, 3, content->count);
-  seal(frame, FRAME_COMMAND, ecu, &c);
+  finish_frame(frame, FRAME_COMMAND, ecu, &c);
 }
 
 bool frame_unpack_command(const bus_frame* frame, frame_command* content) {
   cursor c;
-  if (!unseal(frame, FRAME_COMMAND, FRAME_COMMAND, &c)) return false;
+  if (!open_frame(frame, FRAME_COMMAND, FRAME_COMMAND, &c)) return false;
   for (int k = 0; k < 2; ++k) {
     content->channel[k].request = take8(&c, 3);
     content->channel[k].setpoint = take_setpoint(&c);
@@ -126,12 +126,12 @@ void frame_pack_status(bus_frame* frame, uint8_t ecu, uint8_t channel,
   }
   put(&c, 1, content->follows);
   put(&c, 3, content->counter);
-  seal(frame, channel ? FRAME_STATUS_1 : FRAME_STATUS_0, ecu, &c);
+  finish_frame(frame, channel ? FRAME_STATUS_1 : FRAME_STATUS_0, ecu, &c);
 }
 
 bool frame_unpack_status(const bus_frame* frame, frame_status* content) {
   cursor c;
-  if (!unseal(frame, FRAME_STATUS_0, FRAME_STATUS_1, &c)) return false;
+  if (!open_frame(frame, FRAME_STATUS_0, FRAME_STATUS_1, &c)) return false;
   frame_status s = {.encoder_low = (uint16_t)take(&c, 16)};
   s.current_counts = (int16_t)take_signed(&c, 12);
   s.tension_counts = (uint16_t)take(&c, 12);
@@ -159,12 +159,12 @@ void frame_pack_analog(bus_frame* frame, uint8_t ecu, const frame_analog* conten
   for (int k = 0; k < 2; ++k)
     put(&c, 24, (uint32_t)saturate(content->counts[k], -8388608, 8388607));
   put(&c, 3, content->counter);
-  seal(frame, FRAME_ANALOG, ecu, &c);
+  finish_frame(frame, FRAME_ANALOG, ecu, &c);
 }
 
 bool frame_unpack_analog(const bus_frame* frame, frame_analog* content) {
   cursor c;
-  if (!unseal(frame, FRAME_ANALOG, FRAME_ANALOG, &c)) return false;
+  if (!open_frame(frame, FRAME_ANALOG, FRAME_ANALOG, &c)) return false;
   content->page = take8(&c, 1);
   content->present = take8(&c, 2);
   for (int k = 0; k < 2; ++k) content->counts[k] = take_signed(&c, 24);
@@ -188,12 +188,12 @@ void frame_pack_health(bus_frame* frame, uint8_t ecu, uint8_t channel,
     put(&c, 16, content->rejected);
     put(&c, 8, content->refused_gain_sets);
   }
-  seal(frame, channel ? FRAME_HEALTH_1 : FRAME_HEALTH_0, ecu, &c);
+  finish_frame(frame, channel ? FRAME_HEALTH_1 : FRAME_HEALTH_0, ecu, &c);
 }
 
 bool frame_unpack_health(const bus_frame* frame, frame_health* content) {
   cursor c;
-  if (!unseal(frame, FRAME_HEALTH_0, FRAME_HEALTH_1, &c)) return false;
+  if (!open_frame(frame, FRAME_HEALTH_0, FRAME_HEALTH_1, &c)) return false;
   *content = (frame_health){.page = take8(&c, 1)};
   content->counter = take8(&c, 3);
   if (content->page == 0) {
@@ -219,12 +219,12 @@ void frame_pack_parameter(bus_frame* frame, uint8_t ecu, const frame_parameter* 
   put(&c, 1, content->commit);
   put(&c, 8, content->position);
   put(&c, 32, value);
-  seal(frame, FRAME_PARAMETER, ecu, &c);
+  finish_frame(frame, FRAME_PARAMETER, ecu, &c);
 }
 
 bool frame_unpack_parameter(const bus_frame* frame, frame_parameter* content) {
   cursor c;
-  if (!unseal(frame, FRAME_PARAMETER, FRAME_PARAMETER, &c)) return false;
+  if (!open_frame(frame, FRAME_PARAMETER, FRAME_PARAMETER, &c)) return false;
   content->channel = take8(&c, 1);
   content->index = take8(&c, 6);
   content->commit = take_bit(&c);
@@ -236,12 +236,12 @@ bool frame_unpack_parameter(const bus_frame* frame, frame_parameter* content) {
 
 void frame_pack_discover(bus_frame* frame, uint8_t ecu) {
   const cursor c = {0, 0};
-  seal(frame, FRAME_DISCOVER, ecu, &c);
+  finish_frame(frame, FRAME_DISCOVER, ecu, &c);
 }
 
 bool frame_unpack_discover(const bus_frame* frame) {
   cursor c;
-  return unseal(frame, FRAME_DISCOVER, FRAME_DISCOVER, &c);
+  return open_frame(frame, FRAME_DISCOVER, FRAME_DISCOVER, &c);
 }
 
 void frame_pack_hello(bus_frame* frame, uint8_t ecu, const frame_hello* content) {
@@ -251,12 +251,12 @@ void frame_pack_hello(bus_frame* frame, uint8_t ecu, const frame_hello* content)
   put(&c, 4, content->analog_inputs);
   put(&c, 4, content->reset_cause);
   put(&c, 24, content->serial);
-  seal(frame, FRAME_HELLO, ecu, &c);
+  finish_frame(frame, FRAME_HELLO, ecu, &c);
 }
 
 bool frame_unpack_hello(const bus_frame* frame, frame_hello* content) {
   cursor c;
-  if (!unseal(frame, FRAME_HELLO, FRAME_HELLO, &c)) return false;
+  if (!open_frame(frame, FRAME_HELLO, FRAME_HELLO, &c)) return false;
   content->version = take8(&c, 6);
   content->channels = take8(&c, 2);
   content->analog_inputs = take8(&c, 4);
@@ -268,6 +268,6 @@ bool frame_unpack_hello(const bus_frame* frame, frame_hello* content) {
 uint8_t frame_ahead(uint8_t received, uint8_t last) { return (uint8_t)(received - last) & 7u; }
 
 int32_t frame_unwrap(int32_t last, uint16_t low) {
-  const int16_t moved = (int16_t)(uint16_t)(low - (uint16_t)last);
-  return (int32_t)((uint32_t)last + (uint32_t)moved);
+  const int16_t change = (int16_t)(uint16_t)(low - (uint16_t)last);
+  return (int32_t)((uint32_t)last + (uint32_t)change);
 }

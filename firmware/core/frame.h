@@ -25,15 +25,15 @@
  *   HELLO      10    ECU -> host  version 6, channels 2, analog inputs 4, reset cause 4, serial 24
  *
  * Counters. An ECU increments its counter every period, modulo 8; all its frames of that period
- * carry it. COMMANDs to an ECU are counted modulo 8 as well, so that a late or repeated command
- * neither takes effect nor resets the watchdog. `answers` in a COMMAND is the counter of the newest
- * STATUS that the command was computed from; lockstep uses it to match commands with ticks.
+ * carry it. COMMANDs to an ECU are also counted modulo 8, so that a delayed or repeated command
+ * neither takes effect nor resets the command timeout. `answers` in a COMMAND is the counter of the
+ * newest STATUS that the command was computed from; lockstep uses it to match commands with ticks.
  *
  * In every state except running the duty is 0, so its bits carry the state: boot and fault codes
  * need no frame of their own. EMERGENCY reports a fault at once, with the highest priority; a boot
- * is reported by EMERGENCY only. The upper half of the encoder count is sent in HEALTH; the receiver
- * unwraps the lower half, which is correct while a channel turns less than 32768 counts between two
- * received frames.
+ * is reported by EMERGENCY only. The upper half of the encoder count is sent in HEALTH; the
+ * receiver unwraps the lower half, which is correct while a channel turns less than 32768 counts
+ * between two received frames.
  */
 #ifndef ERP_FIRMWARE_FRAME_H
 #define ERP_FIRMWARE_FRAME_H
@@ -53,7 +53,7 @@ extern "C" {
 #define FRAME_SETPOINT_REFUSED INT32_MIN /* a set-point that does not fit; the ECU rejects it */
 #define FRAME_REQUEST_NONE 7u            /* no command for this channel */
 
-/* One classic frame as it goes over the bus. */
+/* One classic frame on the bus. */
 typedef struct {
   uint16_t id;
   uint8_t size;
@@ -120,7 +120,7 @@ typedef struct {
 } frame_analog;
 
 typedef struct {
-  uint8_t page; /* 0: the fields of the first group, 1: those of the second; the others are 0 */
+  uint8_t page; /* 0: encoder to corrupt; 1: request to refused_gain_sets; the other fields are 0 */
   uint8_t counter;
   int32_t encoder_counts; /* full count */
   bool warning;
@@ -150,11 +150,11 @@ uint16_t frame_identifier(frame_function function, uint8_t ecu);
 frame_function frame_function_of(const bus_frame* frame);
 uint8_t frame_ecu_of(const bus_frame* frame);
 uint8_t frame_crc8(const uint8_t* bytes, unsigned count);
-/* Whether size and check value are right. */
+/* True if size and check value are correct. */
 bool frame_is_intact(const bus_frame* frame);
 
 /* Packing sets all of `frame`. Unpacking returns false and leaves the result unchanged when the
- * frame is corrupt, has another function, or holds a value that no sender uses. */
+ * frame is corrupt, has another function, or contains an invalid value. */
 void frame_pack_emergency(bus_frame* frame, uint8_t ecu, const frame_emergency* content);
 bool frame_unpack_emergency(const bus_frame* frame, frame_emergency* content);
 void frame_pack_command(bus_frame* frame, uint8_t ecu, const frame_command* content);
@@ -172,7 +172,8 @@ bool frame_unpack_discover(const bus_frame* frame);
 void frame_pack_hello(bus_frame* frame, uint8_t ecu, const frame_hello* content);
 bool frame_unpack_hello(const bus_frame* frame, frame_hello* content);
 
-/* By how many counts, modulo 8, `received` is ahead of `last`; FRAME_LATE or more: behind it. */
+/* Number of counts, modulo 8, by which `received` is ahead of `last`. FRAME_LATE or more:
+ * `received` is older than `last`. */
 #define FRAME_LATE 6u
 uint8_t frame_ahead(uint8_t received, uint8_t last);
 

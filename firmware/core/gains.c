@@ -1,10 +1,10 @@
-/* The gains of a channel: staged one by one, take effect together. */
+/* The gains of a channel: staged one by one, committed as a set. */
 #include <float.h>
 
 #include "firmware/core/ecu.h"
 #include "firmware/core/state.h"
 
-_Static_assert(ECU_PARAMETER_COUNT < 64, "`written` has one bit a parameter");
+_Static_assert(ECU_PARAMETER_COUNT < 64, "`written` has one bit per parameter");
 static const uint64_t all_written = ((uint64_t)1 << ECU_PARAMETER_COUNT) - 1u;
 
 static bool is_finite(float x) { return x >= -FLT_MAX && x <= FLT_MAX; } /* false for NaN */
@@ -45,8 +45,8 @@ void ecu_discard_parameters(ecu_channel* channel) {
 void ecu_invalidate_staged(ecu_channel* channel) { channel->staged_invalid = true; }
 
 static bool commit_staged(ecu_channel* channel) {
-  const bool whole = !channel->staged_invalid && channel->written == all_written;
-  if (!whole || !is_sane(channel->gains_staged)) {
+  const bool is_complete = !channel->staged_invalid && channel->written == all_written;
+  if (!is_complete || !is_sane(channel->gains_staged)) {
     ecu_discard_parameters(channel);
     ++channel->rejected_commits;
     return false;
@@ -58,13 +58,13 @@ static bool commit_staged(ecu_channel* channel) {
 }
 
 bool ecu_parameter(ecu_channel* channel, uint8_t index, float value, bool commit) {
-  const bool readable = index < ECU_PARAMETER_COUNT && is_finite(value);
-  if (readable) {
+  const bool is_valid = index < ECU_PARAMETER_COUNT && is_finite(value);
+  if (is_valid) {
     channel->gains_staged[index] = value;
     channel->written |= (uint64_t)1 << index;
   } else {
     ecu_invalidate_staged(channel);
   }
   if (commit) return commit_staged(channel);
-  return readable && !channel->staged_invalid;
+  return is_valid && !channel->staged_invalid;
 }

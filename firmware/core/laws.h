@@ -1,4 +1,4 @@
-/* The four control laws of section 5.1 of the paper; pure functions from numbers to a voltage.
+/* The four control laws of section 5.1 of the paper; pure functions that compute a voltage.
  * All take and return SI units, single precision. */
 #ifndef ERP_FIRMWARE_LAWS_H
 #define ERP_FIRMWARE_LAWS_H
@@ -30,7 +30,7 @@ float law_force_V(const law_force_gains* gains, float force_ref_N, float current
                   float speed_rad_per_s, float tension_N);
 
 /* The voltage nearest to `voltage_V` whose steady-state current stays within +-limit:
- *   R i = V - K_E N w. Never beyond the supply. */
+ *   R i = V - K_E N w. Limited to the supply. */
 float law_limit_current_V(float voltage_V, float speed_rad_per_s, float resistance_ohm,
                           float back_emf_V_s_per_rad, float limit_A, float supply_V);
 

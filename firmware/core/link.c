@@ -19,18 +19,18 @@ static void trip_both(ecu_link* link, ecu_fault fault) {
     if (link->channel[k]) ecu_trip(link->channel[k], fault);
 }
 
-void ecu_link_bus(ecu_link* link, bool off) {
-  if (off) trip_both(link, ECU_FAULT_BUS_OFF);
+void ecu_link_bus(ecu_link* link, bool bus_off) {
+  if (bus_off) trip_both(link, ECU_FAULT_BUS_OFF);
 }
 
 static bool receive_corrupt(ecu_link* link) {
   ++link->corrupt;
-  if (++link->corrupt_in_a_row >= ECU_CORRUPT_TRIP) trip_both(link, ECU_FAULT_CORRUPT);
+  if (++link->consecutive_corrupt >= ECU_CORRUPT_TRIP) trip_both(link, ECU_FAULT_CORRUPT);
   return false;
 }
 
-/* Whether the command is newer than the last received one. Counters run modulo 8; one or two behind
- * is late. */
+/* True if the command is newer than the last received one. Counters run modulo 8; a command that is
+ * one or two counts behind is outdated. */
 static bool is_fresh(ecu_link* link, const frame_command* command) {
   if (!link->has_received) return true;
   const unsigned ahead = frame_ahead(command->count, link->last_count);
@@ -64,17 +64,18 @@ static uint8_t position_after(uint8_t position) {
   return position == 255 ? 1 : (uint8_t)(position + 1);
 }
 
-/* Position 0 begins a set; the same position again is a repeated frame; a gap invalidates the set. */
+/* Position 0 begins a set; the same position again is a repeated frame; a gap invalidates the
+ * set. */
 static bool receive_parameter(ecu_link* link, const frame_parameter* content) {
-  const uint8_t k = content->channel, last = link->last_position[k];
+  const uint8_t k = content->channel, last_position = link->last_position[k];
   ecu_channel* channel = link->channel[k];
   if (!channel) return false;
-  if (content->position != 0 && content->position == last) {
+  if (content->position != 0 && content->position == last_position) {
     ++link->repeated;
     return false;
   }
   if (content->position == 0) ecu_discard_parameters(channel);
-  else if (!link->set_open[k] || content->position != position_after(last))
+  else if (!link->set_open[k] || content->position != position_after(last_position))
     ecu_invalidate_staged(channel);
   link->last_position[k] = content->position;
   link->set_open[k] = !content->commit;
@@ -98,7 +99,7 @@ bool ecu_link_receive(ecu_link* link, const bus_frame* frame) {
   frame_parameter parameter;
   const bool is_command = frame_unpack_command(frame, &command);
   if (!is_command && !frame_unpack_parameter(frame, &parameter)) return receive_corrupt(link);
-  link->corrupt_in_a_row = 0;
+  link->consecutive_corrupt = 0;
   return is_command ? receive_command(link, &command) : receive_parameter(link, &parameter);
 }
 
@@ -185,24 +186,25 @@ static unsigned pack_new_faults(ecu_link* link, const ecu_report* report, bus_fr
 }
 
 /* One page every 50 ms, in rotation, or all pages. */
-static unsigned pack_healths(ecu_link* link, const ecu_report* report, bool all,
+static unsigned pack_healths(ecu_link* link, const ecu_report* report, bool all_pages,
                              bus_frame* frames) {
   unsigned count = 0;
   const bool due = (link->tick + link->ecu) % ECU_HEALTH_TICKS == 0;
   for (uint8_t k = 0; k < 2; ++k)
     for (uint8_t page = 0; page < 2; ++page)
-      if (link->channel[k] && (all || (due && link->health_turn == 2 * page + k)))
+      if (link->channel[k] && (all_pages || (due && link->next_health_page == 2 * page + k)))
         pack_health(link, k, page, &report->channel[k], &frames[count++]);
-  if (due) link->health_turn = (link->health_turn + 1) & 3;
+  if (due) link->next_health_page = (link->next_health_page + 1) & 3;
   return count;
 }
 
-unsigned ecu_link_pack(ecu_link* link, const ecu_report* report, bool whole, bus_frame* frames) {
-  const bool all = whole || link->hello_requested;
+unsigned ecu_link_pack(ecu_link* link, const ecu_report* report, bool all_pages,
+                       bus_frame* frames) {
+  const bool send_all = all_pages || link->hello_requested;
   link->hello_requested = false;
   unsigned count = pack_new_faults(link, report, frames);
-  if (all) pack_hello(link, &frames[count++]);
-  count += pack_healths(link, report, all, frames + count);
+  if (send_all) pack_hello(link, &frames[count++]);
+  count += pack_healths(link, report, send_all, frames + count);
   for (uint8_t page = 0; page < 2; ++page)
     if (link->analog_inputs >> 2 * page & 3)
       pack_analog(link, page, report->analog_counts, &frames[count++]);

@@ -1,5 +1,5 @@
-/* The parameters that an ECU channel needs before it may be armed. One list gives the enum, the names
- * and the frame indices. Its order is part of the wire format: append only. */
+/* The parameters that an ECU channel needs before it may be armed. One list gives the enum, the
+ * names and the frame indices. Its order is part of the wire format: append only. */
 #ifndef ERP_FIRMWARE_PARAMETERS_H
 #define ERP_FIRMWARE_PARAMETERS_H
 
@@ -29,7 +29,7 @@
   X(TENSION_ZERO, tension_zero_counts)            /* live zero: reading of a slack tendon */ \
   X(CURRENT_STUCK_SPEED, current_stuck_rad_per_s) /* 0: no check for a stuck reading */      \
   X(TENSION_STUCK_SPEED, tension_stuck_rad_per_s)                                            \
-  X(WIPER_INPUT, wiper_input)         /* which analog input of the ECU */                    \
+  X(WIPER_INPUT, wiper_input)         /* number of the analog input */                       \
   X(WIPER_SCALE, wiper_rad_per_count) /* potentiometer on the gearbox shaft */               \
   X(WIPER_COUNTS_MAX, wiper_counts_max)                                                      \
   X(WIPER_TOLERANCE, wiper_tolerance_rad)       /* 0: none is fitted */                      \

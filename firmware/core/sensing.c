@@ -1,6 +1,11 @@
 #include "firmware/core/sensing.h"
 
-#include "firmware/core/evidence.h"
+#include "firmware/core/checks.h"
+
+/* Of sensing.h, check `encoder`: the motor turns above this fraction of R i_limit; the encoder must
+ * show this fraction of the back-EMF. Chosen. */
+#define TURNING_FRACTION 0.75f
+#define ENCODER_FRACTION 0.125f
 
 static float magnitude(float x) { return x < 0.0f ? -x : x; }
 
@@ -42,53 +47,56 @@ static void convert(ecu_sensed* s, const float* gains, const ecu_inputs* inputs)
   if (!speed_lost) s->speed_rad_per_s = speed_rad_per_s;
   if (!current_lost) s->current_A = (float)inputs->current_counts * GAIN(CURRENT_SCALE);
   if (!tension_lost) s->tension_N = tension_of(gains, inputs);
-  s->rail_ticks = count_if(current_lost || tension_lost || speed_lost, s->rail_ticks);
+  s->rail_ticks = count_consecutive(current_lost || tension_lost || speed_lost, s->rail_ticks);
 }
 
-/* ---- evidence ---- */
+/* ---- checks ---- */
 
-/* Ticks of rotation without a change; standstill is no evidence either way. */
-static uint32_t same_for(uint32_t ticks, bool same, float speed_rad_per_s, float from_rad_per_s) {
-  if (!same || from_rad_per_s <= 0.0f) return 0u;
-  return magnitude(speed_rad_per_s) >= from_rad_per_s ? ticks + 1u : ticks;
+/* Ticks of rotation without a change. At standstill the number is kept, because a reading may then
+ * be constant. */
+static uint32_t unchanged_ticks(uint32_t ticks, bool same, float speed_rad_per_s,
+                                float min_rad_per_s) {
+  if (!same || min_rad_per_s <= 0.0f) return 0u;
+  return magnitude(speed_rad_per_s) >= min_rad_per_s ? ticks + 1u : ticks;
 }
 
 static void check_stuck(ecu_sensed* s, const float* gains, const ecu_inputs* inputs) {
   const bool same_current = inputs->current_counts == s->inputs.current_counts;
-  const bool taut = tension_of(gains, inputs) > 0.0f; /* clipped at 0, a reading may be constant */
+  const bool taut = tension_of(gains, inputs) > 0.0f; /* at 0 a clipped reading may be constant */
   const bool same_tension = taut && inputs->tension_counts == s->inputs.tension_counts;
-  s->same_current_ticks =
-      same_for(s->same_current_ticks, same_current, s->speed_rad_per_s, GAIN(CURRENT_STUCK_SPEED));
-  s->same_tension_ticks =
-      same_for(s->same_tension_ticks, same_tension, s->speed_rad_per_s, GAIN(TENSION_STUCK_SPEED));
+  s->same_current_ticks = unchanged_ticks(s->same_current_ticks, same_current, s->speed_rad_per_s,
+                                          GAIN(CURRENT_STUCK_SPEED));
+  s->same_tension_ticks = unchanged_ticks(s->same_tension_ticks, same_tension, s->speed_rad_per_s,
+                                          GAIN(TENSION_STUCK_SPEED));
 }
 
 static void check_encoder(ecu_sensed* s, const float* gains, float applied_V) {
   const float emf_V = applied_V - GAIN(RESISTANCE) * s->current_A;
-  const float seen_V = GAIN(BACK_EMF) * s->speed_rad_per_s;
-  const bool turns = magnitude(emf_V) > 0.75f * GAIN(RESISTANCE) * GAIN(CURRENT_LIMIT);
-  const bool unseen = emf_V > 0.0f ? seen_V < emf_V / 8.0f : seen_V > emf_V / 8.0f;
-  s->lag_ticks = count_if(GAIN(BACK_EMF) > 0.0f && turns && unseen, s->lag_ticks);
+  const float encoder_emf_V = GAIN(BACK_EMF) * s->speed_rad_per_s;
+  const bool turns = magnitude(emf_V) > TURNING_FRACTION * GAIN(RESISTANCE) * GAIN(CURRENT_LIMIT);
+  const bool is_not_counted = emf_V > 0.0f ? encoder_emf_V < emf_V * ENCODER_FRACTION
+                                           : encoder_emf_V > emf_V * ENCODER_FRACTION;
+  s->lag_ticks = count_consecutive(GAIN(BACK_EMF) > 0.0f && turns && is_not_counted, s->lag_ticks);
 }
 
-/* Beyond its range a potentiometer stays at its end and gives no information. */
+/* Beyond its range a potentiometer reads its end value, which is not used. */
 static void check_potentiometer(ecu_sensed* s, const float* gains, const ecu_inputs* inputs) {
   const float counts = (float)inputs->potentiometer_counts;
   if (GAIN(WIPER_TOLERANCE) <= 0.0f || counts <= 0.0f || counts >= GAIN(WIPER_COUNTS_MAX)) {
-    s->apart_ticks = 0u;
+    s->disagree_ticks = 0u;
     return;
   }
   const float sum_rad = s->shaft_rad + counts * GAIN(WIPER_SCALE);
   if (!s->has_wiper_zero) s->wiper_zero_rad = sum_rad;
   s->has_wiper_zero = true;
-  s->apart_ticks =
-      count_if(magnitude(sum_rad - s->wiper_zero_rad) > GAIN(WIPER_TOLERANCE), s->apart_ticks);
+  s->disagree_ticks = count_consecutive(
+      magnitude(sum_rad - s->wiper_zero_rad) > GAIN(WIPER_TOLERANCE), s->disagree_ticks);
 }
 
-static ecu_fault worst(const ecu_sensed* s) {
+static ecu_fault detected_fault(const ecu_sensed* s) {
   if (s->rail_ticks >= ECU_RAIL_TICKS) return ECU_FAULT_SENSOR_RANGE;
   if (s->lag_ticks >= ECU_DISAGREE_TICKS) return ECU_FAULT_ENCODER;
-  if (s->apart_ticks >= ECU_DISAGREE_TICKS) return ECU_FAULT_POTENTIOMETER;
+  if (s->disagree_ticks >= ECU_DISAGREE_TICKS) return ECU_FAULT_POTENTIOMETER;
   if (s->same_current_ticks >= ECU_STUCK_TICKS || s->same_tension_ticks >= ECU_STUCK_TICKS)
     return ECU_FAULT_SENSOR_STUCK;
   return ECU_FAULT_NONE;
@@ -100,10 +108,10 @@ ecu_fault ecu_sense(ecu_sensed* sensed, const float* gains, const ecu_inputs* in
   if (sensed->has_inputs) check_stuck(sensed, gains, inputs);
   check_encoder(sensed, gains, applied_V);
   check_potentiometer(sensed, gains, inputs);
-  return worst(sensed);
+  return detected_fault(sensed);
 }
 
 void ecu_sensing_clear(ecu_sensed* sensed) {
   sensed->rail_ticks = sensed->same_current_ticks = sensed->same_tension_ticks = 0u;
-  sensed->lag_ticks = sensed->apart_ticks = 0u;
+  sensed->lag_ticks = sensed->disagree_ticks = 0u;
 }

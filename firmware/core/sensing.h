@@ -6,10 +6,10 @@
  *                  current limit, V = R i + K_E N w
  *   stuck          the reading does not change by one count for 100 ms in which the shaft turns; a
  *                  working converter is noisy. Checked above the speed given by the gains; 0: never
- *   encoder        the motor equation V = R i + K_E N w shows that the motor turns, and the encoder
- *                  that it does not, for 50 ms: w above 0.75 R i_limit / (K_E N), measured less than
- *                  an eighth of it. A stalled motor does not look like this, even if the configured
- *                  resistance is up to 75 % too high
+ *   encoder        for 50 ms the motor equation V = R i + K_E N w shows a rotation that the encoder
+ *                  does not show: w above 0.75 R i_limit / (K_E N), measured less than
+ *                  an eighth of it. A stalled motor does not trip this check, even if the
+ *                  configured resistance is up to 75 % too high
  *   potentiometer  on the same shaft: its difference from the encoder exceeds the tolerance for
  *                  50 ms
  */
@@ -25,7 +25,7 @@ extern "C" {
 #endif
 
 #define ECU_PERIOD_S 0.002f    /* control period: 500 Hz, paper 5.1 */
-#define ECU_RAIL_TICKS 3u      /* samples in a row at a converter's rail */
+#define ECU_RAIL_TICKS 3u      /* consecutive samples at a converter's rail */
 #define ECU_STUCK_TICKS 50u    /* 100 ms of rotation without a change */
 #define ECU_DISAGREE_TICKS 25u /* 50 ms of contradiction between two sensors */
 
@@ -44,20 +44,20 @@ typedef struct {
   float shaft_rad, speed_rad_per_s, current_A, tension_N;
   ecu_inputs inputs; /* of the last tick */
   bool has_inputs;
-  /* evidence against a sensor */
+  /* durations of suspicious readings */
   uint32_t rail_ticks;
   uint32_t same_current_ticks, same_tension_ticks;
-  uint32_t lag_ticks, apart_ticks;
+  uint32_t lag_ticks, disagree_ticks;
   bool has_wiper_zero;
   float wiper_zero_rad; /* shaft + potentiometer at the first reading */
 } ecu_sensed;
 
-/* Processes one reading. `gains` as in parameters.h; `applied_V` is the voltage since the last one.
- * Returns the detected sensor fault, or ECU_FAULT_NONE. */
+/* Processes one reading. `gains` as in parameters.h; `applied_V`: the voltage since the last
+ * reading. Returns the detected sensor fault, or ECU_FAULT_NONE. */
 ecu_fault ecu_sense(ecu_sensed* sensed, const float* gains, const ecu_inputs* inputs,
                     float applied_V);
 
-/* Resets the evidence, not the shaft position; a persistent fault is detected again. */
+/* Resets the durations, not the shaft position; a persistent fault is detected again. */
 void ecu_sensing_clear(ecu_sensed* sensed);
 
 #ifdef __cplusplus

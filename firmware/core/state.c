@@ -20,7 +20,7 @@ static const ecu_state table[ECU_STATE_COUNT][ECU_EVENT_COUNT] = {
 ecu_state ecu_next_state(ecu_state state, ecu_event event) { return table[state][event]; }
 
 /* In every state except running the channel drives nothing and its law has no memory. */
-static void rest(ecu_channel* channel) {
+static void reset_law(ecu_channel* channel) {
   channel->request = channel->state == ARMED ? ECU_REQUEST_ARM : ECU_REQUEST_OFF;
   channel->setpoint = 0;
   channel->duty = 0;
@@ -32,11 +32,11 @@ void ecu_apply(ecu_channel* channel, ecu_event event) {
   if (next == channel->state) return;
   if (channel->state == FAULT) {
     channel->fault = ECU_FAULT_NONE;
-    channel->overruns_in_a_row = 0u;
+    channel->consecutive_overruns = 0u;
     ecu_sensing_clear(&channel->sensed);
     ecu_strain_clear(&channel->strain);
   }
   channel->state = next;
   channel->bad_setpoints = 0;
-  if (next != RUNNING) rest(channel);
+  if (next != RUNNING) reset_law(channel);
 }

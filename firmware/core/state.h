@@ -8,11 +8,11 @@ extern "C" {
 #endif
 
 typedef enum {
-  ECU_EVENT_COMMIT, /* a sane set of gains came into force */
+  ECU_EVENT_COMMIT, /* a plausible set of gains takes effect */
   ECU_EVENT_OFF,
   ECU_EVENT_CLEAR,
   ECU_EVENT_ARM,
-  ECU_EVENT_SETPOINT, /* a sane set-point of one of the four modes */
+  ECU_EVENT_SETPOINT, /* a set-point within the limits, of one of the four modes */
   ECU_EVENT_TRIP,
   ECU_EVENT_COUNT
 } ecu_event;

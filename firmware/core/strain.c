@@ -1,6 +1,6 @@
 #include "firmware/core/strain.h"
 
-#include "firmware/core/evidence.h"
+#include "firmware/core/checks.h"
 
 /* A converter that is not fitted has scale 0. */
 static float temperature_C(const float* gains, const ecu_inputs* inputs) {
@@ -31,9 +31,9 @@ static float heat_after(float heat_A2_s, const float* gains, float current_A) {
 
 ecu_fault ecu_strain_tick(ecu_strain* s, const float* gains, const ecu_sensed* sensed,
                           const ecu_inputs* inputs) {
-  s->over_current_ticks = count_if(is_over_current(gains, inputs), s->over_current_ticks);
-  s->hot_ticks = count_if(is_hot(gains, inputs), s->hot_ticks);
-  s->low_supply_ticks = count_if(is_supply_low(gains, inputs), s->low_supply_ticks);
+  s->over_current_ticks = count_consecutive(is_over_current(gains, inputs), s->over_current_ticks);
+  s->hot_ticks = count_consecutive(is_hot(gains, inputs), s->hot_ticks);
+  s->low_supply_ticks = count_consecutive(is_supply_low(gains, inputs), s->low_supply_ticks);
   s->heat_A2_s = heat_after(s->heat_A2_s, gains, sensed->current_A);
   if (s->over_current_ticks >= ECU_OVER_CURRENT_TICKS) return ECU_FAULT_OVER_CURRENT;
   if (sensed->tension_N > GAIN(TENSION_TRIP)) return ECU_FAULT_OVER_TENSION;
@@ -46,10 +46,10 @@ ecu_fault ecu_strain_tick(ecu_strain* s, const float* gains, const ecu_sensed* s
 float ecu_current_limit_A(const float* gains, const ecu_inputs* inputs) {
   const float limit_A = GAIN(CURRENT_LIMIT);
   if (GAIN(TEMPERATURE_SCALE) == 0.0f) return limit_A;
-  const float left = (GAIN(TEMPERATURE_TRIP) - temperature_C(gains, inputs)) /
-                     (GAIN(TEMPERATURE_TRIP) - GAIN(TEMPERATURE_DERATE));
-  if (!(left > 0.0f)) return 0.0f;
-  return left < 1.0f ? left * limit_A : limit_A;
+  const float fraction = (GAIN(TEMPERATURE_TRIP) - temperature_C(gains, inputs)) /
+                         (GAIN(TEMPERATURE_TRIP) - GAIN(TEMPERATURE_DERATE));
+  if (!(fraction > 0.0f)) return 0.0f;
+  return fraction < 1.0f ? fraction * limit_A : limit_A;
 }
 
 void ecu_strain_clear(ecu_strain* strain) {

@@ -1,7 +1,7 @@
 /* Load limits of a channel's motor and ECU.
  *
- *   over-current  |i| above the trip level for two samples, judged on the raw reading, because a short
- *                 drives the converter to its rail
+ *   over-current  |i| above the trip level for two samples, checked on the raw reading, because a
+ *                 short circuit drives the converter to its rail
  *   I2t           h' = i^2 - i_continuous^2, never below 0; a fault above the limit, A^2 s
  *   temperature   above `derate` the current limit decreases, to 0 at `trip`; a fault above `trip`
  *                 for 100 ms
@@ -29,10 +29,10 @@ typedef struct {
 ecu_fault ecu_strain_tick(ecu_strain* strain, const float* gains, const ecu_sensed* sensed,
                           const ecu_inputs* inputs);
 
-/* The current limit at this temperature. */
+/* The current limit at the measured temperature, in A. */
 float ecu_current_limit_A(const float* gains, const ecu_inputs* inputs);
 
-/* Resets the evidence, not the accumulated heat. */
+/* Resets the durations, not the accumulated heat. */
 void ecu_strain_clear(ecu_strain* strain);
 
 #ifdef __cplusplus

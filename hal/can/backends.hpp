@@ -35,11 +35,11 @@ class Descriptor {
 /// Waits until `fd` is readable; false after the timeout or a signal.
 inline bool wait_readable(int fd, double timeout_s) {
   if (timeout_s <= 0) return true;
-  pollfd waiting{fd, POLLIN, 0};
+  pollfd descriptor{fd, POLLIN, 0};
   const double whole_s = std::floor(timeout_s);
   const timespec timeout{static_cast<std::time_t>(whole_s),
                          static_cast<long>((timeout_s - whole_s) * 1e9)};
-  return ::ppoll(&waiting, 1, &timeout, nullptr) > 0;
+  return ::ppoll(&descriptor, 1, &timeout, nullptr) > 0;
 }
 
 constexpr std::int64_t to_ns(const timespec& time) {

@@ -47,14 +47,17 @@ void BusKeeper::notice_state(BusState state) {
 /// No node acknowledges: accepted frames are not sent, or the controller reports missing
 /// acknowledgements and no frame is received.
 bool BusKeeper::is_stuck(const BusCounters& now, std::int64_t now_ns) {
-  const std::uint64_t left = now.sent - bus_->in_flight();
-  if (!left_ns_ || left != left_ || bus_->in_flight() == 0) left_ns_ = now_ns;
-  left_ = left;
-  if (now.received != last_.received) alone_since_ns_.reset();
-  else if (now.unacknowledged != last_.unacknowledged && !alone_since_ns_) alone_since_ns_ = now_ns;
-  last_ = now;
-  return !now.off() && (now_ns - *left_ns_ >= stuck_ns ||
-                        (alone_since_ns_ && now_ns - *alone_since_ns_ >= stuck_ns));
+  const std::uint64_t sent_on_wire = now.sent - bus_->in_flight();
+  if (!last_sent_ns_ || sent_on_wire != sent_on_wire_ || bus_->in_flight() == 0)
+    last_sent_ns_ = now_ns;
+  sent_on_wire_ = sent_on_wire;
+  if (now.received != last_counters_.received) unacknowledged_since_ns_.reset();
+  else if (now.unacknowledged != last_counters_.unacknowledged && !unacknowledged_since_ns_)
+    unacknowledged_since_ns_ = now_ns;
+  last_counters_ = now;
+  return !now.off() &&
+         (now_ns - *last_sent_ns_ >= stuck_ns ||
+          (unacknowledged_since_ns_ && now_ns - *unacknowledged_since_ns_ >= stuck_ns));
 }
 
 void BusKeeper::notice_stuck(bool stuck) {
@@ -68,19 +71,19 @@ void BusKeeper::notice_stuck(bool stuck) {
 
 void BusKeeper::recover(std::int64_t now_ns) {
   switch (recovery_.step(state_ == BusState::off, now_ns)) {
-    case BusRecovery::Do::nothing:
+    case BusRecovery::Action::nothing:
       return;
-    case BusRecovery::Do::give_up:
+    case BusRecovery::Action::give_up:
       return notify(Severity::fault, "bus_off_latched",
                     "bus-off after three restarts; restart the gateway to use this bus again");
-    case BusRecovery::Do::restart:
+    case BusRecovery::Action::restart:
       break;
   }
   try {
     bus_->restart();
     notify(Severity::warning, "bus_restarted",
            "restart " + std::to_string(recovery_.restarts()) + " of " +
-               std::to_string(BusRecovery::most_restarts));
+               std::to_string(BusRecovery::max_restarts));
   } catch (const std::runtime_error& error) {
     notify(Severity::fault, "bus_restart", error.what());
   }

@@ -29,7 +29,7 @@ struct BusNotice {
 /// No clock: time is an argument.
 class BusKeeper {
  public:
-  static constexpr std::int64_t stuck_ns = 20'000'000;
+  static constexpr std::int64_t stuck_ns = 20'000'000;  ///< chosen: ten periods
 
   BusKeeper(std::string name, std::unique_ptr<CanBus> bus)
       : name_(std::move(name)), bus_(std::move(bus)) {}
@@ -65,10 +65,12 @@ class BusKeeper {
   Outbox outbox_;
   BusRecovery recovery_;
   BusState state_ = BusState::active;
-  std::uint64_t left_ = 0;                      ///< frames seen on the wire
-  std::optional<std::int64_t> left_ns_;         ///< time of the last, or when none was in flight
-  std::optional<std::int64_t> alone_since_ns_;  ///< time of the first missing acknowledgement
-  BusCounters last_;
+  std::uint64_t sent_on_wire_ = 0;  ///< frames observed on the wire
+  /// Time of the last frame on the wire, or when none was in flight.
+  std::optional<std::int64_t> last_sent_ns_;
+  /// Time of the first missing acknowledgement.
+  std::optional<std::int64_t> unacknowledged_since_ns_;
+  BusCounters last_counters_;
   bool stuck_ = false;
   std::vector<BusNotice> notices_;
 };

@@ -8,9 +8,10 @@ namespace {
 
 static_assert(ECU_PARAMETER_COUNT < 63, "a parameter's index has 6 bits on the bus");
 constexpr std::uint8_t no_parameter = 63;
+constexpr std::uint8_t last_position = 255;  // of a PARAMETER in a set; continues at 1
 
 /// The command as sent on the bus. An unknown request becomes a set-point that every ECU rejects.
-frame_channel_command on_the_bus(const EcuChannelCommand& requested) {
+frame_channel_command to_channel_command(const EcuChannelCommand& requested) {
   if (requested.request > ECU_REQUEST_FORCE) return {ECU_REQUEST_VOLTAGE, FRAME_SETPOINT_REFUSED};
   return {requested.request, requested.setpoint};
 }
@@ -28,8 +29,8 @@ Gateway::Gateway(const Robot& robot) {
   frame_ = tick_;
   commands_.reserve(FRAME_ECUS);
   parameters_.reserve(capacity_of<EcuParameterValue>);
-  emergencies_.reserve(emergencies_kept);
-  hellos_.reserve(hellos_kept);
+  emergencies_.reserve(max_emergencies);
+  hellos_.reserve(max_hellos);
   frame_pack_discover(&discover_, FRAME_EVERYONE);
 }
 
@@ -75,38 +76,39 @@ bool Gateway::is_identified(int ecu) const {
          ecus_[static_cast<std::size_t>(ecu)].hello.has_value();
 }
 
-// ---- to the ECUs ----
+// ---- frames to the ECUs ----
 
 std::span<const CanFrame> Gateway::commands(const EcuCommand& message) {
   commands_.clear();
   for (Ecu& ecu : ecus_) ecu.has_command = false;
   for (const EcuChannelCommand& requested : samples(message.channels)) {
-    const bool known = requested.ecu < FRAME_ECUS && requested.channel < 2 &&
-                       ecus_[requested.ecu].channel[requested.channel] >= 0;
-    if (known) fill_in(ecus_[requested.ecu], requested);
+    const bool is_in_use = requested.ecu < FRAME_ECUS && requested.channel < 2 &&
+                           ecus_[requested.ecu].channel[requested.channel] >= 0;
+    if (is_in_use) set_channel_command(ecus_[requested.ecu], requested);
     else ++counters_.unknown_channels;
   }
   for (Ecu& ecu : ecus_) {
     if (!ecu.has_command) continue;
-    number(ecu, message.answers);
+    number_command(ecu, message.answers);
     frame_pack_command(&commands_.emplace_back(), ecu.address, &ecu.command);
   }
   return commands_;
 }
 
-void Gateway::fill_in(Ecu& ecu, const EcuChannelCommand& requested) {
+void Gateway::set_channel_command(Ecu& ecu, const EcuChannelCommand& requested) {
   if (!ecu.has_command) ecu.command = {{{FRAME_REQUEST_NONE, 0}, {FRAME_REQUEST_NONE, 0}}, 0, 0};
   ecu.has_command = true;
-  ecu.command.channel[requested.channel] = on_the_bus(requested);
+  ecu.command.channel[requested.channel] = to_channel_command(requested);
   channels_[static_cast<std::size_t>(ecu.channel[requested.channel])].sent =
       ecu.command.channel[requested.channel];
 }
 
-/// Sets the counter that the command answers, if still known, and the number of the command.
-void Gateway::number(Ecu& ecu, std::uint64_t answered_sequence) {
-  const Past& past = past_[answered_sequence % past_.size()];
-  const bool known = past.sequence == answered_sequence && answered_sequence != 0;
-  if (known) ecu.answers = past.counter[ecu.address];
+/// Sets the counter of the tick that the command answers, if it is still stored, and the number of
+/// the command.
+void Gateway::number_command(Ecu& ecu, std::uint64_t answered_sequence) {
+  const PastTick& past_tick = past_ticks_[answered_sequence % past_ticks_.size()];
+  const bool is_stored = past_tick.sequence == answered_sequence && answered_sequence != 0;
+  if (is_stored) ecu.answers = past_tick.counter[ecu.address];
   ecu.count = static_cast<std::uint8_t>((ecu.count + 1) & 7);
   ecu.command.answers = ecu.answers;
   ecu.command.count = ecu.count;
@@ -115,9 +117,9 @@ void Gateway::number(Ecu& ecu, std::uint64_t answered_sequence) {
 std::span<const CanFrame> Gateway::parameters(const EcuParameter& message) {
   parameters_.clear();
   for (const EcuParameterValue& requested : samples(message.values)) {
-    const bool known = requested.ecu < FRAME_ECUS && requested.channel < 2 &&
-                       ecus_[requested.ecu].channel[requested.channel] >= 0;
-    if (!known) {
+    const bool is_in_use = requested.ecu < FRAME_ECUS && requested.channel < 2 &&
+                           ecus_[requested.ecu].channel[requested.channel] >= 0;
+    if (!is_in_use) {
       ++counters_.unknown_channels;
       continue;
     }
@@ -126,7 +128,7 @@ std::span<const CanFrame> Gateway::parameters(const EcuParameter& message) {
     const frame_parameter content{requested.channel, std::min(requested.index, no_parameter),
                                   requested.commit, channel.next_position, requested.value};
     frame_pack_parameter(&parameters_.emplace_back(), requested.ecu, &content);
-    const int next = content.position == 255 ? 1 : content.position + 1;
+    const int next = content.position == last_position ? 1 : content.position + 1;
     channel.next_position = static_cast<std::uint8_t>(requested.commit ? 0 : next);
   }
   return parameters_;
@@ -146,9 +148,9 @@ void Gateway::close_tick() {
   if (missing_ > 0) ++counters_.incomplete_ticks;
   ++tick_.sequence;
   frame_ = tick_;
-  Past& past = past_[tick_.sequence % past_.size()];
-  past.sequence = tick_.sequence;
-  for (const Ecu& ecu : ecus_) past.counter[ecu.address] = ecu.counter;
+  PastTick& past_tick = past_ticks_[tick_.sequence % past_ticks_.size()];
+  past_tick.sequence = tick_.sequence;
+  for (const Ecu& ecu : ecus_) past_tick.counter[ecu.address] = ecu.counter;
   for (EcuChannelSample& sample : samples(tick_.channels)) sample.fresh = false;
   for (EcuAnalogSample& sample : samples(tick_.analogs)) sample.fresh = false;
   for (Channel& channel : channels_) channel.fresh = false;

@@ -21,7 +21,7 @@ enum class FrameResult {
 struct GatewayCounters {
   std::uint64_t corrupt = 0;           ///< size, check value or content wrong
   std::uint64_t lost = 0;              ///< STATUS and ANALOG frames missing in the counters
-  std::uint64_t late = 0;              ///< older than a received one; dropped
+  std::uint64_t late = 0;              ///< older than a frame that was received before; dropped
   std::uint64_t repeated = 0;          ///< already received; dropped
   std::uint64_t foreign = 0;           ///< from an ECU or channel that robot.xml does not contain
   std::uint64_t unknown_channels = 0;  ///< commands and parameters for such a channel
@@ -38,26 +38,28 @@ struct EcuHello {
   std::uint8_t ecu = 0;
   bool named = false;  ///< robot.xml contains it
   frame_hello content{};
-  std::uint8_t lacks_channels = 0, lacks_inputs = 0;  ///< bit k: used by robot.xml, not fitted
+  /// Bit k: robot.xml uses number k, which the ECU does not have.
+  std::uint8_t lacks_channels = 0, lacks_inputs = 0;
 };
 
 /// Translates between the plant's messages and the ECUs' frames. Pure: no DDS, no clock, no heap
 /// after construction.
 ///
-/// A tick is complete when every channel and joint sensor of robot.xml has been received once. It is
-/// closed early when one of them is received a second time, or by `close_tick`; missing channels
-/// then keep their last values, with `fresh` false. ECUs whose clocks drift apart therefore cost one
-/// incomplete tick each time one overtakes another, and frames of simulated ECUs never mix two ticks.
+/// A tick is complete when every channel and joint sensor of robot.xml has been received once. It
+/// is closed early when one of them is received a second time, or by `close_tick`; missing channels
+/// then keep their last values, with `fresh` false. If the clocks of ECUs drift apart, one tick is
+/// therefore incomplete each time one ECU overtakes another. Frames of simulated ECUs never mix two
+/// ticks.
 ///
-/// Frames of an ECU are used only after its HELLO or its boot frame has reported this version of the
-/// frames; `discover` requests that.
+/// Frames of an ECU are used only after its HELLO or its boot frame has reported this version of
+/// the frames; `discover` requests a HELLO.
 ///
 /// While a channel runs, its STATUS does not contain its set-point, only whether the newest command
-/// was accepted; the gateway then reports that command. This is exact when frames do not cross in
-/// transit (lockstep), up to a period early when they do, and corrected by each HEALTH.
+/// was accepted; the gateway then reports that command. The report is exact if no frames cross in
+/// transit (lockstep). Otherwise it is up to a period early. Each HEALTH corrects it.
 class Gateway {
  public:
-  static constexpr std::size_t emergencies_kept = 64, hellos_kept = 256;
+  static constexpr std::size_t max_emergencies = 64, max_hellos = 256;
 
   /// Throws std::invalid_argument when two actuators share a channel or two sensors share an input.
   explicit Gateway(const Robot& robot);
@@ -84,16 +86,16 @@ class Gateway {
 
   GatewayCounters counters() const { return counters_; }
 
-  /// Boots and faults reported since the last `clear_events`; beyond `emergencies_kept` the newest
+  /// Boots and faults reported since the last `clear_events`; beyond `max_emergencies` the newest
   /// are dropped.
   std::span<const EcuEmergency> emergencies() const { return emergencies_; }
-  /// ECUs that sent HELLO, once for each change of its content; kept and cleared with those.
+  /// ECUs that sent HELLO, once for each change of its content; cleared by `clear_events`.
   std::span<const EcuHello> hellos() const { return hellos_; }
   void clear_events() { emergencies_.clear(), hellos_.clear(); }
 
-  /// Whether the ECU is in robot.xml and has reported this version.
+  /// True if the ECU is in robot.xml and has reported this version.
   bool is_compatible(int ecu) const;
-  /// Whether it has sent HELLO since it last booted.
+  /// True if the ECU has sent HELLO since its last boot.
   bool is_identified(int ecu) const;
 
   /// The last HEALTH page of a channel, in the order of robot.xml's actuators.
@@ -134,21 +136,21 @@ class Gateway {
     frame_command command{};
   };
   /// The ECU counters of a past tick, to find the counter that a command answers.
-  struct Past {
+  struct PastTick {
     std::uint64_t sequence = 0;
     std::array<std::uint8_t, FRAME_ECUS> counter{};
   };
 
   void add(const Actuator& actuator);
   void add(const AnalogInput& used);
-  void fill_in(Ecu& ecu, const EcuChannelCommand& requested);
-  void number(Ecu& ecu, std::uint64_t answered_sequence);
+  void set_channel_command(Ecu& ecu, const EcuChannelCommand& requested);
+  void number_command(Ecu& ecu, std::uint64_t answered_sequence);
   FrameResult receive_status(Ecu& ecu, const CanFrame& frame);
   FrameResult receive_analog(Ecu& ecu, const CanFrame& frame);
   FrameResult receive_health(Ecu& ecu, const CanFrame& frame);
   FrameResult receive_emergency(Ecu& ecu, const CanFrame& frame);
   FrameResult receive_hello(Ecu& ecu, const CanFrame& frame);
-  void forget(Ecu& ecu);
+  void reset_counters(Ecu& ecu);
   FrameResult receive_corrupt();
   FrameResult finish(bool closed_early);
   bool is_new(Counter& counter, std::uint8_t received);
@@ -159,8 +161,8 @@ class Gateway {
   std::vector<Channel> channels_;  ///< in the order of robot.xml's actuators
   std::vector<Analog> analogs_;    ///< in the order of Robot::analog_inputs
   std::size_t missing_ = 0;        ///< channels and inputs not yet received in this tick
-  EcuFrame tick_, frame_;          ///< being assembled; last completed
-  std::array<Past, 8> past_{};
+  EcuFrame tick_, frame_;          ///< tick being assembled; last completed tick
+  std::array<PastTick, 8> past_ticks_{};
   std::vector<CanFrame> commands_, parameters_;
   CanFrame discover_{};
   std::vector<EcuEmergency> emergencies_;

@@ -50,7 +50,8 @@ int Gateway::channel_index(const Ecu& ecu, const CanFrame& frame, frame_function
   return ecu.channel[static_cast<std::size_t>(frame_function_of(&frame) - first)];
 }
 
-/// Counters run modulo 8: one or two behind is late, the same is repeated, a gap is lost frames.
+/// Counters run modulo 8. A frame that is one or two counts behind is outdated, one with the same
+/// count is repeated, and a gap means lost frames.
 bool Gateway::is_new(Counter& counter, std::uint8_t received) {
   const std::uint8_t ahead = counter.known ? frame_ahead(received, counter.last) : std::uint8_t{1};
   if (ahead == 0) ++counters_.repeated;
@@ -71,9 +72,9 @@ FrameResult Gateway::receive_status(Ecu& ecu, const CanFrame& frame) {
   }
   Channel& channel = channels_[static_cast<std::size_t>(index)];
   if (!channel.encoder_known) return FrameResult::nothing;  // before the first HEALTH
-  const bool same = channel.counter.known && channel.counter.last == content.counter;
+  const bool is_repeated = channel.counter.known && channel.counter.last == content.counter;
   if (!is_new(channel.counter, content.counter))
-    return same && index == 0 ? FrameResult::tick_repeated : FrameResult::nothing;
+    return is_repeated && index == 0 ? FrameResult::tick_repeated : FrameResult::nothing;
   const bool closes_early = channel.fresh;
   if (closes_early) close_tick();
   ecu.counter = content.counter;
@@ -142,9 +143,9 @@ FrameResult Gateway::receive_health(Ecu& ecu, const CanFrame& frame) {
   return FrameResult::nothing;
 }
 
-/// Bit k is set if robot.xml uses number k (index[k] >= 0) and it is not fitted.
+/// Bit k is set if robot.xml uses number k (index[k] >= 0) and the ECU does not have it.
 template <std::size_t n>
-static std::uint8_t lacking(const std::array<int, n>& index, unsigned fitted) {
+static std::uint8_t not_fitted(const std::array<int, n>& index, unsigned fitted) {
   unsigned missing = 0;
   for (std::size_t k = 0; k < n; ++k)
     if (index[k] >= 0 && !(fitted >> k & 1u)) missing |= 1u << k;
@@ -160,25 +161,25 @@ FrameResult Gateway::receive_hello(Ecu& ecu, const CanFrame& frame) {
   const bool has_changed = !ecu.hello || key(*ecu.hello) != key(content);
   ecu.hello = content;
   ecu.version_matches = ecu.in_use && content.version == FRAME_VERSION;
-  if (has_changed && hellos_.size() < hellos_kept)
-    hellos_.push_back({ecu.address, ecu.in_use, content, lacking(ecu.channel, content.channels),
-                       lacking(ecu.analog, content.analog_inputs)});
+  if (has_changed && hellos_.size() < max_hellos)
+    hellos_.push_back({ecu.address, ecu.in_use, content, not_fitted(ecu.channel, content.channels),
+                       not_fitted(ecu.analog, content.analog_inputs)});
   return FrameResult::nothing;
 }
 
 FrameResult Gateway::receive_emergency(Ecu& ecu, const CanFrame& frame) {
   EcuEmergency emergency{ecu.address, {}};
   if (!frame_unpack_emergency(&frame, &emergency.content)) return receive_corrupt();
-  if (emergencies_.size() < emergencies_kept) emergencies_.push_back(emergency);
+  if (emergencies_.size() < max_emergencies) emergencies_.push_back(emergency);
   if (!emergency.content.boot) return FrameResult::nothing;
   ecu.version_matches = emergency.content.version == FRAME_VERSION;
   ecu.hello.reset();
-  forget(ecu);
+  reset_counters(ecu);
   return FrameResult::nothing;
 }
 
 /// After a boot the ECU counts from zero again: periods, encoder and received commands.
-void Gateway::forget(Ecu& ecu) {
+void Gateway::reset_counters(Ecu& ecu) {
   for (Counter& page : ecu.analog_page) page = {};
   for (int index : ecu.channel) {
     if (index < 0) continue;

@@ -11,17 +11,17 @@
 namespace erp {
 namespace {
 
-constexpr double period_s = 0.002;
+constexpr double period_s = 0.002;  // of the ECUs
 
 /// Frames that one ECU sends in a period.
-struct Words {
+struct EcuFrames {
   int channels = 0;
   std::array<bool, 2> analog_page{};
   int frames() const { return channels + analog_page[0] + analog_page[1]; }
 };
 
-std::map<int, Words> words_of(const Robot& robot) {
-  std::map<int, Words> ecus;
+std::map<int, EcuFrames> frames_by_ecu(const Robot& robot) {
+  std::map<int, EcuFrames> ecus;
   for (const Actuator& actuator : robot.actuators) ++ecus[actuator.ecu].channels;
   for (const AnalogInput& input : robot.analog_inputs())
     ecus[input.ecu].analog_page[static_cast<std::size_t>(input.input / 2)] = true;
@@ -30,8 +30,8 @@ std::map<int, Words> words_of(const Robot& robot) {
 
 double bundles_time_s(int frames, const BusPlan& bus) {
   double time_s = 0;
-  for (int left = frames; left > 0; left -= static_cast<int>(BUNDLE_FRAMES_MAX))
-    time_s += fd_frame_time_s(bundle_size(static_cast<unsigned>(left)), bus.bitrate_per_s,
+  for (int remaining = frames; remaining > 0; remaining -= static_cast<int>(BUNDLE_FRAMES_MAX))
+    time_s += fd_frame_time_s(bundle_size(static_cast<unsigned>(remaining)), bus.bitrate_per_s,
                               *bus.data_bitrate_per_s);
   return time_s;
 }
@@ -42,22 +42,22 @@ double time_s(int frames, const BusPlan& bus) {
   return frames * frame_time_s(8, bus.bitrate_per_s);
 }
 
-BusLoad load_of(const BusPlan& bus, const std::map<int, Words>& ecus) {
-  constexpr double health_share = 1.0 / ECU_HEALTH_TICKS;
+BusLoad load_of(const BusPlan& bus, const std::map<int, EcuFrames>& ecus) {
+  constexpr double health_fraction = 1.0 / ECU_HEALTH_TICKS;
   BusLoad load{bus.name, static_cast<int>(bus.ecus.size())};
   load.period_s = time_s(load.ecus, bus);
   for (const int ecu : bus.ecus) {
-    const auto content = ecus.find(ecu);
-    if (content == ecus.end()) continue;
-    const int frames = content->second.frames();
+    const auto sender = ecus.find(ecu);
+    if (sender == ecus.end()) continue;
+    const int frames = sender->second.frames();
     load.period_s +=
-        time_s(frames, bus) * (1 - health_share) + time_s(frames + 1, bus) * health_share;
+        time_s(frames, bus) * (1 - health_fraction) + time_s(frames + 1, bus) * health_fraction;
   }
   load.share = load.period_s / period_s;
   return load;
 }
 
-std::string percent(double share) { return std::to_string(std::lround(100 * share)) + " %"; }
+std::string percent(double fraction) { return std::to_string(std::lround(100 * fraction)) + " %"; }
 
 }  // namespace
 
@@ -75,7 +75,7 @@ double fd_frame_time_s(std::size_t bytes, double bitrate_per_s, double data_bitr
 }
 
 std::vector<BusLoad> bus_loads(const Robot& robot) {
-  const auto ecus = words_of(robot);
+  const auto ecus = frames_by_ecu(robot);
   std::vector<BusLoad> loads;
   for (const BusPlan& bus : robot.buses()) loads.push_back(load_of(bus, ecus));
   return loads;
@@ -91,11 +91,11 @@ void refuse_overload(const Robot& robot) {
   std::vector<xml::Error> errors;
   const auto loads = bus_loads(robot);
   for (std::size_t i = 0; i < loads.size(); ++i)
-    if (loads[i].share > most_load)
+    if (loads[i].share > max_load)
       errors.push_back(
           xml::error_in(BusPlan::element, robot.can_buses[i].place,
                         "bus \"" + loads[i].bus + "\" would be busy " + percent(loads[i].share) +
-                            " of its time, more than " + percent(most_load),
+                            " of its time, more than " + percent(max_load),
                         "spread its " + std::to_string(loads[i].ecus) +
                             " ECUs over more buses, or give it CAN FD: data_bitrate_per_s"));
   xml::throw_if_any(std::move(errors));

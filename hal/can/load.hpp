@@ -4,7 +4,7 @@
 
 #include "interfaces/robot/robot.hpp"
 
-/// Predicted load of a robot's buses, from robot.xml alone.
+/// Load of a robot's buses, predicted from robot.xml.
 ///
 /// Worst-case length of a frame, with all stuff bits:
 ///
@@ -14,20 +14,22 @@
 ///     next frame, at the nominal rate; 5 + 8 n, a quarter of it stuffed, 4 of stuff count, CRC 17
 ///     (21 above 16 bytes) with 6 (7) fixed stuff bits, at the data rate (ISO 11898-1:2015)
 ///
-/// Every 2 ms: a COMMAND to each ECU; from each ECU a STATUS per channel and an ANALOG for each pair
-/// of inputs. Every 50 ms: a HEALTH.
+/// Every 2 ms: a COMMAND to each ECU; from each ECU a STATUS per channel and an ANALOG for each
+/// pair of inputs. Every 50 ms: a HEALTH.
 namespace erp {
 
 struct BusLoad {
   std::string bus;
   int ecus = 0;
-  double share = 0;     ///< of the bus's time, worst case; 1: fully loaded
+  double share = 0;     ///< worst-case fraction of the time in which the bus is busy
   double period_s = 0;  ///< time on the bus of the frames of one 2 ms period
 };
 
-/// The rest is reserved for PARAMETERs, EMERGENCYs and repeated frames; chosen.
-inline constexpr double most_load = 0.9;
+/// Largest accepted load; chosen. The remaining time is for PARAMETERs, EMERGENCYs and repeated
+/// frames.
+inline constexpr double max_load = 0.9;
 
+/// Worst-case time of a frame with `bytes` of data, in s.
 double frame_time_s(std::size_t bytes, double bitrate_per_s);
 double fd_frame_time_s(std::size_t bytes, double bitrate_per_s, double data_bitrate_per_s);
 
@@ -37,7 +39,7 @@ std::vector<BusLoad> bus_loads(const Robot& robot);
 /// One line, "left: 4 ECUs, 82 % of its time".
 std::string to_string(const BusLoad& load);
 
-/// Throws xml::Errors for planned buses above `most_load`, with place, load and remedy. Accepts a
+/// Throws xml::Errors for planned buses above `max_load`, with place, load and remedy. Accepts a
 /// robot without a bus plan, because it may be used without a bus.
 void refuse_overload(const Robot& robot);
 

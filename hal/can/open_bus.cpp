@@ -14,8 +14,8 @@ constexpr auto usage =
 int port_of(const std::string& text) {
   int port = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
-  const bool whole = error == std::errc() && end == text.data() + text.size();
-  if (!whole || port < 1 || port > 65535)
+  const bool is_number = error == std::errc() && end == text.data() + text.size();
+  if (!is_number || port < 1 || port > 65535)
     throw std::invalid_argument("port \"" + text + "\" is not a number from 1 to 65535; " + usage);
   return port;
 }
@@ -23,28 +23,30 @@ int port_of(const std::string& text) {
 std::unique_ptr<CanBus> open_by_name(const std::string& specification, const BusOptions& options) {
   const auto colon = specification.find(':');
   const std::string backend = specification.substr(0, colon);
-  const std::string rest = colon == std::string::npos ? "" : specification.substr(colon + 1);
+  const std::string parameters = colon == std::string::npos ? "" : specification.substr(colon + 1);
   if (backend == "socketcan") {
-    if (rest.empty()) throw std::invalid_argument(std::string("names no interface; ") + usage);
-    return can::open_socketcan(rest, options);
+    if (parameters.empty())
+      throw std::invalid_argument(std::string("names no interface; ") + usage);
+    return can::open_socketcan(parameters, options);
   }
   if (backend == "udp") {
-    const auto last = rest.rfind(':');
-    if (last == std::string::npos)
+    const auto last_colon = parameters.rfind(':');
+    if (last_colon == std::string::npos)
       throw std::invalid_argument(std::string("names no group and port; ") + usage);
-    return can::open_udp(rest.substr(0, last), port_of(rest.substr(last + 1)));
+    return can::open_udp(parameters.substr(0, last_colon),
+                         port_of(parameters.substr(last_colon + 1)));
   }
-  if (backend == "trace") return can::open_trace(rest);
+  if (backend == "trace") return can::open_trace(parameters);
   throw std::invalid_argument("unknown back end \"" + backend + "\"; " + usage);
 }
 
-constexpr int first_port = 20000, ports_a_domain = 16;  // chosen
+constexpr int first_port = 20000, ports_per_domain = 16;  // chosen
 
 }  // namespace
 
-std::string own_bus() {
+std::string default_bus() {
   const char* domain = std::getenv("ERP_DOMAIN");
-  const int port = first_port + ports_a_domain * (domain ? std::atoi(domain) : 0);
+  const int port = first_port + ports_per_domain * (domain ? std::atoi(domain) : 0);
   return "udp:239.255.42.1:" + std::to_string(port);
 }
 

@@ -10,12 +10,14 @@
 namespace erp {
 namespace {
 
+constexpr std::size_t gain_set_frames = 4096;  // chosen: one gain set of a whole robot
+constexpr double rate_tolerance = 0.001;       // chosen, relative
 constexpr std::string_view kernel_bus = "socketcan:", trace = "trace:";
 
-/// `text` with its last number larger by `add`.
-std::string counted_up(const std::string& text, std::size_t add) {
-  const auto last = text.find_last_of("0123456789");
-  if (last == std::string::npos || last + 1 != text.size())
+/// `text` with its last number increased by `add`.
+std::string with_increased_number(const std::string& text, std::size_t add) {
+  const auto last_digit = text.find_last_of("0123456789");
+  if (last_digit == std::string::npos || last_digit + 1 != text.size())
     throw std::invalid_argument("bus \"" + text +
                                 "\" does not end in a number that can increase from bus to bus; "
                                 "give one specification per bus, separated by spaces");
@@ -24,12 +26,13 @@ std::string counted_up(const std::string& text, std::size_t add) {
   return text.substr(0, begin) + std::to_string(std::stoull(text.substr(begin)) + add);
 }
 
-/// If the bit rate is known it must equal the planned one; nodes at different rates cannot communicate.
+/// If the bit rate is known it must equal the planned one; nodes at different rates cannot
+/// communicate.
 void check_rate(const BusPlan& plan, const std::string& where) {
   if (!where.starts_with(kernel_bus)) return;
   const std::string interface = where.substr(kernel_bus.size());
   const auto rate = can::bitrate_per_s(interface);
-  if (rate && std::abs(*rate - plan.bitrate_per_s) > 0.001 * plan.bitrate_per_s)
+  if (rate && std::abs(*rate - plan.bitrate_per_s) > rate_tolerance * plan.bitrate_per_s)
     throw std::invalid_argument(
         "interface \"" + interface + "\" runs at " + xml::write_number(*rate) +
         " bit/s, robot.xml plans " + xml::write_number(plan.bitrate_per_s) + " for bus \"" +
@@ -48,17 +51,16 @@ BusRoutes::BusRoutes(const Robot& robot) {
     ecus_.push_back(plan.ecus);
   }
   sorted_.resize(names_.size());
-  for (auto& frames : sorted_)
-    frames.reserve(4096);  // one gain set of a robot: no allocation later
+  for (auto& frames : sorted_) frames.reserve(gain_set_frames);  // no allocation later
 }
 
 void BusRoutes::sort(std::span<const CanFrame> frames) {
-  for (auto& on_one : sorted_) on_one.clear();
+  for (auto& bus_frames : sorted_) bus_frames.clear();
   for (const CanFrame& frame : frames) {
     const std::uint8_t ecu = frame_ecu_of(&frame);
     if (ecu != FRAME_EVERYONE) sorted_[bus_of_[ecu]].push_back(frame);
     else
-      for (auto& on_one : sorted_) on_one.push_back(frame);
+      for (auto& bus_frames : sorted_) bus_frames.push_back(frame);
   }
 }
 
@@ -74,7 +76,7 @@ std::vector<std::string> bus_specifications(const std::string& where, std::size_
         std::to_string(words.size()) +
         "; give one per bus, or one whose last number increases from bus to bus");
   if (words[0].starts_with(trace)) return words;
-  for (std::size_t k = 1; k < buses; ++k) words.push_back(counted_up(words[0], k));
+  for (std::size_t k = 1; k < buses; ++k) words.push_back(with_increased_number(words[0], k));
   return words;
 }
 

@@ -20,7 +20,8 @@ class BusRoutes {
   std::span<const int> ecus(std::size_t bus) const { return ecus_[bus]; }
   std::size_t bus_of(int ecu) const { return bus_of_[static_cast<std::size_t>(ecu)]; }
 
-  /// Sorts frames by their ECU's bus and keeps their order; a DISCOVER to all ECUs goes on each bus.
+  /// Sorts frames by their ECU's bus and keeps their order; a DISCOVER to all ECUs goes on each
+  /// bus.
   void sort(std::span<const CanFrame> frames);
   /// The frames of the last `sort` for one bus.
   std::span<const CanFrame> on(std::size_t bus) const { return sorted_[bus]; }
@@ -34,10 +35,10 @@ class BusRoutes {
 
 /// Opens the buses of `robot.buses()`, in order. `where` gives one specification of `open_bus` per
 /// bus, separated by spaces, or one for all, whose last number increases from bus to bus:
-/// socketcan:can0 is can0, can1 … ; udp:239.255.42.1:20000 is port 20000, 20001 … A `trace:` serves
-/// all buses, as the first one. `window` frames per ECU may be in flight (0: no limit).
-/// Throws std::invalid_argument when the number of specifications is wrong or a bus does not run at
-/// robot.xml's bit rate, and as open_bus does.
+/// socketcan:can0 is can0, can1 … ; udp:239.255.42.1:20000 is port 20000, 20001 … A `trace:` is
+/// opened once, as the first bus, and contains the frames of all buses. `window` frames per ECU may
+/// be in flight (0: no limit). Throws std::invalid_argument when the number of specifications is
+/// wrong or a bus does not run at robot.xml's bit rate, and as open_bus does.
 std::vector<std::unique_ptr<CanBus>> open_buses(const Robot& robot, const std::string& where,
                                                 std::size_t window = 0);
 

@@ -83,11 +83,11 @@ bool RobotEcus::receive(const CanFrame& frame) {
 
 std::span<const CanFrame> RobotEcus::report(const EcuFrame& tick) {
   for (Ecu& ecu : ecus_) ecu_link_tick(&ecu.link);
-  take(tick);
+  store_readings(tick);
   return pack(ecus_.empty() || ecus_.front().link.tick == 1);
 }
 
-void RobotEcus::take(const EcuFrame& tick) {
+void RobotEcus::store_readings(const EcuFrame& tick) {
   for (Ecu& ecu : ecus_) ecu.sent = !ecu.link.channel[0] && !ecu.link.channel[1];
   for (const EcuChannelSample& sample : samples(tick.channels)) {
     Ecu* ecu = find(sample.ecu);
@@ -102,12 +102,12 @@ void RobotEcus::take(const EcuFrame& tick) {
 
 std::span<const CanFrame> RobotEcus::repeat() { return pack(true); }
 
-std::span<const CanFrame> RobotEcus::pack(bool whole) {
+std::span<const CanFrame> RobotEcus::pack(bool all_frames) {
   frames_.clear();
   std::array<CanFrame, ECU_LINK_FRAMES_MAX> content;
   for (Ecu& ecu : ecus_) {
     if (!ecu.sent) continue;
-    const unsigned count = ecu_link_pack(&ecu.link, &ecu.report, whole, content.data());
+    const unsigned count = ecu_link_pack(&ecu.link, &ecu.report, all_frames, content.data());
     frames_.insert(frames_.end(), content.begin(), content.begin() + count);
   }
   return frames_;

@@ -11,7 +11,7 @@
 
 namespace erp {
 
-/// The ECU end of the bus for a whole robot: what a simulator needs to act as its ECUs.
+/// The ECU side of the bus for a whole robot, for a simulator that acts as the ECUs.
 /// Pure: no DDS, no clock, no heap after construction. Each ECU receives and sends through
 /// `firmware/core/link.h`, as the microcontroller does.
 ///
@@ -28,18 +28,19 @@ class RobotEcus {
   /// Passes a frame to the ECU that it addresses. Returns true when it was used.
   bool receive(const CanFrame& frame);
 
-  /// Begins a tick and packs it: the frames of every ECU, valid until the next call. The tick is given
-  /// as the message that would go over DDS instead, so that both ways carry the same. An ECU without
-  /// a `fresh` channel sends nothing. The first tick contains all frames (as `repeat`).
+  /// Begins a tick and packs it: the frames of every ECU, valid until the next call. `tick` is the
+  /// message that is otherwise sent over DDS, so that bus and DDS carry the same data. An ECU
+  /// without a `fresh` channel sends nothing. The first tick contains all frames, like `repeat`.
   std::span<const CanFrame> report(const EcuFrame& tick);
 
-  /// The last tick again, with all frames that a newly started gateway needs; valid as above.
+  /// The last tick again, with all frames that a newly started gateway needs; valid until the next
+  /// call.
   std::span<const CanFrame> repeat();
 
-  /// One boot frame of each ECU; valid as above.
+  /// One boot frame of each ECU; valid until the next call.
   std::span<const CanFrame> boot(frame_reset_cause cause);
 
-  /// Whether every ECU that sent in this tick has received a command computed from it.
+  /// True if every ECU that sent in this tick has received a command computed from the tick.
   bool answered() const;
 
   /// The link of one ECU, with its counters; null when robot.xml has no such ECU.
@@ -53,8 +54,8 @@ class RobotEcus {
   };
   int index_of(int address) const;
   Ecu* find(int address);
-  void take(const EcuFrame& tick);
-  std::span<const CanFrame> pack(bool whole);
+  void store_readings(const EcuFrame& tick);
+  std::span<const CanFrame> pack(bool all_frames);
 
   std::array<int, FRAME_ECUS> index_;  ///< of an address in `ecus_`, or -1
   std::vector<Ecu> ecus_;

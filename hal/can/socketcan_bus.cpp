@@ -14,14 +14,14 @@ namespace erp::can {
 namespace {
 
 /// State of the bus after an error frame of the controller (linux/can/error.h).
-BusState state_after(const can_frame& error, BusState before) {
+BusState state_after(const can_frame& error, BusState previous) {
   if (error.can_id & CAN_ERR_BUSOFF) return BusState::off;
   if (error.can_id & CAN_ERR_RESTARTED) return BusState::active;
-  if (!(error.can_id & CAN_ERR_CRTL) || before == BusState::off) return before;
+  if (!(error.can_id & CAN_ERR_CRTL) || previous == BusState::off) return previous;
   const auto has = [&](int bits) { return (error.data[1] & bits) != 0; };
   if (has(CAN_ERR_CRTL_RX_PASSIVE | CAN_ERR_CRTL_TX_PASSIVE)) return BusState::passive;
   if (has(CAN_ERR_CRTL_RX_WARNING | CAN_ERR_CRTL_TX_WARNING)) return BusState::warning;
-  return has(CAN_ERR_CRTL_ACTIVE) ? BusState::active : before;
+  return has(CAN_ERR_CRTL_ACTIVE) ? BusState::active : previous;
 }
 
 class SocketCanBus final : public CanBus {
@@ -33,9 +33,9 @@ class SocketCanBus final : public CanBus {
   std::size_t send(std::span<const CanFrame> frames) override {
     std::size_t taken = 0;
     while (taken < frames.size() && counters_.state != BusState::off) {
-      const std::size_t some = send_batch(frames.subspan(taken));
-      if (some == 0) break;
-      taken += some;
+      const std::size_t accepted = send_batch(frames.subspan(taken));
+      if (accepted == 0) break;
+      taken += accepted;
     }
     counters_.sent += taken;
     counters_.refused += frames.size() - taken;
@@ -63,7 +63,7 @@ class SocketCanBus final : public CanBus {
  private:
   void enter(BusState state) {
     counters_.state = state;
-    if (counters_.off()) in_flight_ = 0;  // those frames are lost
+    if (counters_.off()) in_flight_ = 0;  // the frames in flight are lost
   }
 
   // ---- sending ----
@@ -132,18 +132,19 @@ class SocketCanBus final : public CanBus {
     msghdr& message = incoming_.messages[i].msg_hdr;
     const canfd_frame& in = incoming_.frames[i];
     if (in.can_id & CAN_ERR_FLAG) return take_error(in);
-    const Circumstances seen = circumstances_of(message);
-    if (seen.dropped != counters_.overrun) in_flight_ = 0;  // confirmations may be among them
-    counters_.overrun = seen.dropped;
-    const bool own = (message.msg_flags & MSG_CONFIRM) != 0;
-    if (own && in_flight_ > 0) --in_flight_;
+    const Metadata metadata = metadata_of(message);
+    if (metadata.dropped != counters_.overrun)
+      in_flight_ = 0;  // confirmations may have been dropped
+    counters_.overrun = metadata.dropped;
+    const bool is_own = (message.msg_flags & MSG_CONFIRM) != 0;
+    if (is_own && in_flight_ > 0) --in_flight_;
     const auto frames = std::span(storage_).subspan(filled);
     const std::size_t count = read(in, incoming_.messages[i].msg_len, frames);
     if (sink_)
       for (const CanFrame& frame : frames.first(count))
-        sink_->frame(frame, clock_.stamp_ns(seen.kernel_ns, seen.hardware_ns), own);
-    if (own) return;
-    if (counters_.off()) enter(BusState::active);  // receiving frames means on the bus
+        sink_->frame(frame, clock_.stamp_ns(metadata.kernel_ns, metadata.hardware_ns), is_own);
+    if (is_own) return;
+    if (counters_.off()) enter(BusState::active);  // a received frame proves that the bus works
     counters_.received += count;
     counters_.unreadable += count == 0;
     filled += count;
@@ -183,7 +184,7 @@ class SocketCanBus final : public CanBus {
   Descriptor socket_;
   Batch outgoing_, incoming_;
   std::array<CanFrame, Batch::size * BUNDLE_FRAMES_MAX> storage_;  ///< of the last batch
-  std::span<CanFrame> waiting_;                                    ///< its frames not yet returned
+  std::span<CanFrame> waiting_;  ///< frames of storage_ that were not yet returned
   std::size_t in_flight_ = 0;
   StampClock clock_;
   FrameSink* sink_ = nullptr;

@@ -13,7 +13,7 @@
 namespace erp::can {
 namespace {
 
-constexpr std::size_t kernel_bytes_a_frame = 1024;  // a socket buffer of one frame, rounded up
+constexpr std::size_t kernel_bytes_per_frame = 1024;  // a socket buffer of one frame, rounded up
 
 Descriptor raw_socket() {
   const int fd = ::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW);
@@ -50,22 +50,22 @@ void require_fd(const Descriptor& socket, const std::string& interface) {
   ifreq request{};
   std::copy_n(interface.c_str(), std::min(interface.size(), sizeof request.ifr_name - 1),
               request.ifr_name);
-  const bool knows = ::ioctl(socket.get(), SIOCGIFMTU, &request) == 0;
-  if (!knows || request.ifr_mtu < static_cast<int>(CANFD_MTU))
+  const bool mtu_is_known = ::ioctl(socket.get(), SIOCGIFMTU, &request) == 0;
+  if (!mtu_is_known || request.ifr_mtu < static_cast<int>(CANFD_MTU))
     throw std::runtime_error("interface \"" + interface +
                              "\" does not carry CAN FD; `ip link set " + interface +
                              " up type can bitrate 1000000 dbitrate 5000000 fd on`, or remove "
                              "data_bitrate_per_s from robot.xml's can_bus");
 }
 
-/// Own frames are received as well: room for both, beyond the usual limit if permitted.
-void make_room(const Descriptor& socket) {
-  const int bytes = 4 << 20;
+/// Own frames are also received. The buffer has room for both, beyond the usual limit if permitted.
+void enlarge_receive_buffer(const Descriptor& socket) {
+  constexpr int bytes = 4 << 20;  // chosen
   if (::setsockopt(socket.get(), SOL_SOCKET, SO_RCVBUFFORCE, &bytes, sizeof bytes) != 0)
     set(socket, SOL_SOCKET, SO_RCVBUF, bytes);
 }
 
-void choose_what_comes(const Descriptor& socket, const BusOptions& options) {
+void select_received_frames(const Descriptor& socket, const BusOptions& options) {
   set(socket, SOL_CAN_RAW, CAN_RAW_FILTER, can_filter{0, CAN_EFF_FLAG | CAN_RTR_FLAG});
   set(socket, SOL_CAN_RAW, CAN_RAW_ERR_FILTER,
       can_err_mask_t{CAN_ERR_BUSOFF | CAN_ERR_RESTARTED | CAN_ERR_CRTL | CAN_ERR_ACK |
@@ -85,11 +85,12 @@ Descriptor open_raw(const std::string& interface, const BusOptions& options) {
   sockaddr_can where{};
   where.can_family = AF_CAN;
   where.can_ifindex = static_cast<int>(index_of(interface));
-  choose_what_comes(socket, options);
-  make_room(socket);
+  select_received_frames(socket, options);
+  enlarge_receive_buffer(socket);
   // A driver that confirms at once still fills the kernel's queue; this limits our share of it.
   if (options.window > 0)
-    set(socket, SOL_SOCKET, SO_SNDBUF, static_cast<int>(options.window * kernel_bytes_a_frame / 2));
+    set(socket, SOL_SOCKET, SO_SNDBUF,
+        static_cast<int>(options.window * kernel_bytes_per_frame / 2));
   if (::bind(socket.get(), reinterpret_cast<const sockaddr*>(&where), sizeof where) != 0)
     throw std::invalid_argument("\"" + interface + "\" is not a CAN interface (" +
                                 std::strerror(errno) + "); `ip -br link show type can` lists them");
@@ -100,19 +101,19 @@ Descriptor open_raw(const std::string& interface, const BusOptions& options) {
   return socket;
 }
 
-Circumstances circumstances_of(msghdr& message) {
-  Circumstances seen;
+Metadata metadata_of(msghdr& message) {
+  Metadata metadata;
   for (cmsghdr* part = CMSG_FIRSTHDR(&message); part; part = CMSG_NXTHDR(&message, part)) {
     if (part->cmsg_level != SOL_SOCKET) continue;
     if (part->cmsg_type == SO_RXQ_OVFL)
-      std::memcpy(&seen.dropped, CMSG_DATA(part), sizeof seen.dropped);
+      std::memcpy(&metadata.dropped, CMSG_DATA(part), sizeof metadata.dropped);
     if (part->cmsg_type != SO_TIMESTAMPING) continue;
     scm_timestamping stamps;
     std::memcpy(&stamps, CMSG_DATA(part), sizeof stamps);
-    seen.kernel_ns = to_ns(timespec{stamps.ts[0].tv_sec, stamps.ts[0].tv_nsec});
-    seen.hardware_ns = to_ns(timespec{stamps.ts[2].tv_sec, stamps.ts[2].tv_nsec});
+    metadata.kernel_ns = to_ns(timespec{stamps.ts[0].tv_sec, stamps.ts[0].tv_nsec});
+    metadata.hardware_ns = to_ns(timespec{stamps.ts[2].tv_sec, stamps.ts[2].tv_nsec});
   }
-  return seen;
+  return metadata;
 }
 
 Batch::Batch() {

@@ -12,17 +12,17 @@
 /// only.
 namespace erp::can {
 
-/// A raw socket on `interface`: 11-bit data frames, error frames, echo of own frames, timestamps, and
-/// the kernel's count of dropped frames. `options.window` also limits the kernel's send buffer.
+/// A raw socket on `interface`: 11-bit data frames, error frames, echo of own frames, timestamps,
+/// and the kernel's count of dropped frames. `options.window` also limits the kernel's send buffer.
 /// Throws std::invalid_argument or std::runtime_error, with the remedy.
 Descriptor open_raw(const std::string& interface, const BusOptions& options);
 
 /// Metadata of a received frame.
-struct Circumstances {
+struct Metadata {
   std::int64_t kernel_ns = 0, hardware_ns = 0;  ///< since 1970; hardware: the controller's clock
   std::uint32_t dropped = 0;                    ///< by the kernel since the socket was opened
 };
-Circumstances circumstances_of(msghdr& message);
+Metadata metadata_of(msghdr& message);
 
 /// Messages of one sendmmsg or recvmmsg, pointing at their frames.
 class Batch {

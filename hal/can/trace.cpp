@@ -15,7 +15,7 @@ bool read_hex(const char* begin, const char* end, Number& value) {
   return error == std::errc() && stop == end;
 }
 
-/// `123#DEADBEEF`: three digits of an identifier, then two a byte.
+/// `123#DEADBEEF`: three digits of an identifier, then two per byte.
 std::optional<CanFrame> parse_frame(const std::string& text) {
   CanFrame frame{};
   const auto mark = text.find('#');
@@ -28,8 +28,11 @@ std::optional<CanFrame> parse_frame(const std::string& text) {
   return frame;
 }
 
-/// A time since 1970 that fits 64 bits of ns. scanf also accepts `nan` and `inf`, which are not times.
-bool is_stamp(double time_s) { return time_s >= 0 && time_s < 9.2e9; }
+constexpr double max_stamp_s = 9.2e9;  // fits 64 bits of ns
+
+/// A time since 1970 that fits 64 bits of ns. scanf also accepts `nan` and `inf`, which are not
+/// times.
+bool is_stamp(double time_s) { return time_s >= 0 && time_s < max_stamp_s; }
 
 using Line = std::array<char, 96>;
 
@@ -50,16 +53,16 @@ int print_line(Line& line, const CanFrame& frame, std::int64_t stamp_ns, const c
 std::optional<TraceLine> parse_trace_line(const std::string& line) {
   std::array<char, 32> interface {
   }, frame{};
-  TraceLine found;
+  TraceLine parsed;
   int end = 0;
-  const int read = std::sscanf(line.c_str(), "(%lf) %31s %31s%n", &found.time_s, interface.data(),
+  const int read = std::sscanf(line.c_str(), "(%lf) %31s %31s%n", &parsed.time_s, interface.data(),
                                frame.data(), &end);
-  if (read != 3 || !is_stamp(found.time_s)) return {};
-  const auto parsed = parse_frame(frame.data());
-  if (!parsed) return {};
-  found.interface = interface.data();
-  found.frame = *parsed;
-  return found;
+  if (read != 3 || !is_stamp(parsed.time_s)) return {};
+  const auto parsed_frame = parse_frame(frame.data());
+  if (!parsed_frame) return {};
+  parsed.interface = interface.data();
+  parsed.frame = *parsed_frame;
+  return parsed;
 }
 
 std::string trace_line(const CanFrame& frame, std::int64_t stamp_ns, const std::string& interface) {

@@ -9,8 +9,8 @@
 #include "hal/can/backends.hpp"
 #include "hal/can/trace.hpp"
 
-// A trace as a bus: the frames of ECUs are received at the pace of the recording, which starts at the
-// first `receive`; sent frames are discarded.
+// A trace as a bus: the frames of ECUs are received at the recorded rate, from the first `receive`
+// on; sent frames are discarded.
 namespace erp::can {
 namespace {
 
@@ -24,8 +24,9 @@ std::vector<TraceLine> read_trace(const std::string& name) {
   if (!file) throw std::runtime_error("cannot read it: " + std::string(std::strerror(errno)));
   std::vector<TraceLine> lines;
   for (std::string line; std::getline(file, line);)
-    if (const auto found = parse_trace_line(line); found && !is_from_host(found->frame))
-      lines.push_back(*found);
+    if (const auto line_of_ecu = parse_trace_line(line);
+        line_of_ecu && !is_from_host(line_of_ecu->frame))
+      lines.push_back(*line_of_ecu);
   if (lines.empty())
     throw std::runtime_error("contains no frame of an ECU; give a file of `candump -L`");
   const auto earlier = [](const TraceLine& a, const TraceLine& b) { return a.time_s < b.time_s; };
@@ -39,7 +40,7 @@ class TraceBus final : public CanBus {
       : lines_(read_trace(file)), timer_(::timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK)) {
     if (timer_.get() < 0)
       throw std::runtime_error(std::string("no timer: ") + std::strerror(errno));
-    arm({0, 0}, {0, step_ns});  // one step, for the first `receive`
+    arm({0, 0}, {0, step_ns});  // expires once, to wake the first `receive`
   }
 
   std::size_t send(std::span<const CanFrame> frames) override {
@@ -49,7 +50,7 @@ class TraceBus final : public CanBus {
 
   std::size_t receive(std::span<CanFrame> frames, double timeout_s) override {
     if (!wait_readable(timer_.get(), timeout_s)) return 0;
-    pass_time();
+    advance_time();
     std::size_t filled = 0;
     while (filled < frames.size() && next_ < lines_.size() && is_due(lines_[next_]))
       frames[filled++] = frame_of(lines_[next_++]);
@@ -68,8 +69,8 @@ class TraceBus final : public CanBus {
     return line.time_s - lines_.front().time_s <= 1e-9 * step_ns * static_cast<double>(steps_);
   }
 
-  /// The timer reports how many steps have passed; no clock is read and no step is lost.
-  void pass_time() {
+  /// The timer reports the number of elapsed steps; no clock is read and no step is lost.
+  void advance_time() {
     std::uint64_t steps = 0;
     if (::read(timer_.get(), &steps, sizeof steps) <= 0) return;
     if (!playing_) arm({0, step_ns}, {0, step_ns});
@@ -83,8 +84,8 @@ class TraceBus final : public CanBus {
   }
 
   void arm(timespec interval, timespec first) {
-    const itimerspec when{interval, first};
-    ::timerfd_settime(timer_.get(), 0, &when, nullptr);
+    const itimerspec schedule{interval, first};
+    ::timerfd_settime(timer_.get(), 0, &schedule, nullptr);
   }
 
   std::vector<TraceLine> lines_;

@@ -13,12 +13,12 @@
 namespace erp::can {
 namespace {
 
-constexpr std::size_t frames_per_datagram = 64, header_bytes = 4, frame_bytes = 11;
+constexpr std::size_t frames_per_datagram = 64, header_bytes = 4, frame_bytes = 11, data_offset = 3;
 constexpr std::size_t datagram_bytes = header_bytes + frames_per_datagram * frame_bytes;
 constexpr char magic[header_bytes + 1] = "erpc";
 
-[[noreturn]] void fail(const std::string& what) {
-  throw std::runtime_error(what + ": " + std::strerror(errno));
+[[noreturn]] void fail(const std::string& action) {
+  throw std::runtime_error(action + ": " + std::strerror(errno));
 }
 
 Descriptor udp_socket() {
@@ -28,8 +28,8 @@ Descriptor udp_socket() {
 }
 
 template <class Value>
-void set(const Descriptor& socket, int level, int option, const Value& value, const char* what) {
-  if (::setsockopt(socket.get(), level, option, &value, sizeof value) != 0) fail(what);
+void set(const Descriptor& socket, int level, int option, const Value& value, const char* action) {
+  if (::setsockopt(socket.get(), level, option, &value, sizeof value) != 0) fail(action);
 }
 
 sockaddr_in address(in_addr host, int port) {
@@ -61,17 +61,18 @@ class UdpBus final : public CanBus {
     set(sender_, IPPROTO_IP, IP_MULTICAST_LOOP, 1, "cannot enable multicast loopback");
     set(sender_, IPPROTO_IP, IP_MULTICAST_TTL, 0, "cannot limit multicast to this machine");
     bind_to(sender_, address(loopback(), 0));
-    socklen_t size = sizeof own_;
-    if (::getsockname(sender_.get(), reinterpret_cast<sockaddr*>(&own_), &size) != 0)
+    socklen_t size = sizeof own_address_;
+    if (::getsockname(sender_.get(), reinterpret_cast<sockaddr*>(&own_address_), &size) != 0)
       fail("cannot read the port of the socket");
   }
 
   std::size_t send(std::span<const CanFrame> frames) override {
     std::size_t taken = 0;
     while (taken < frames.size()) {
-      const auto some = frames.subspan(taken, std::min(frames_per_datagram, frames.size() - taken));
-      if (!send_datagram(some)) break;
-      taken += some.size();
+      const auto batch =
+          frames.subspan(taken, std::min(frames_per_datagram, frames.size() - taken));
+      if (!send_datagram(batch)) break;
+      taken += batch.size();
     }
     counters_.sent += taken;
     counters_.refused += frames.size() - taken;
@@ -99,7 +100,7 @@ class UdpBus final : public CanBus {
       at[0] = static_cast<std::uint8_t>(frame.id & 0xFF);
       at[1] = static_cast<std::uint8_t>(frame.id >> 8);
       at[2] = frame.size;
-      std::memcpy(at + 3, frame.data, 8);
+      std::memcpy(at + data_offset, frame.data, 8);
       at += frame_bytes;
     }
     const auto size = static_cast<std::size_t>(at - datagram.data());
@@ -117,12 +118,13 @@ class UdpBus final : public CanBus {
     msghdr message{&from, sizeof from, &part, 1, control.data(), control.size(), 0};
     const ssize_t size = ::recvmsg(receiver_.get(), &message, MSG_DONTWAIT);
     if (size < 0) return false;
-    const bool own = from.sin_port == own_.sin_port && from.sin_addr.s_addr == own_.sin_addr.s_addr;
-    if (own && !sink_) return true;
+    const bool is_own = from.sin_port == own_address_.sin_port &&
+                        from.sin_addr.s_addr == own_address_.sin_addr.s_addr;
+    if (is_own && !sink_) return true;
     const auto frames = unpack(std::span(datagram).first(static_cast<std::size_t>(size)));
     if (sink_)
-      for (const CanFrame& frame : frames) sink_->frame(frame, stamp_ns(message), own);
-    if (own) return true;
+      for (const CanFrame& frame : frames) sink_->frame(frame, stamp_ns(message), is_own);
+    if (is_own) return true;
     counters_.received += frames.size();
     counters_.unreadable += frames.empty();
     waiting_ = frames;
@@ -141,16 +143,17 @@ class UdpBus final : public CanBus {
 
   /// The frames of a datagram, in `storage_`; empty: not our format.
   std::span<CanFrame> unpack(std::span<const std::uint8_t> datagram) {
-    const bool ours = datagram.size() > header_bytes && datagram.size() <= datagram_bytes &&
-                      (datagram.size() - header_bytes) % frame_bytes == 0 &&
-                      std::memcmp(datagram.data(), magic, header_bytes) == 0;
-    if (!ours) return {};
+    const bool is_our_format = datagram.size() > header_bytes &&
+                               datagram.size() <= datagram_bytes &&
+                               (datagram.size() - header_bytes) % frame_bytes == 0 &&
+                               std::memcmp(datagram.data(), magic, header_bytes) == 0;
+    if (!is_our_format) return {};
     const std::size_t count = (datagram.size() - header_bytes) / frame_bytes;
     const std::uint8_t* at = datagram.data() + header_bytes;
     for (std::size_t i = 0; i < count; ++i, at += frame_bytes) {
       storage_[i].id = static_cast<std::uint16_t>(at[0] | at[1] << 8);
       storage_[i].size = at[2];
-      std::memcpy(storage_[i].data, at + 3, 8);
+      std::memcpy(storage_[i].data, at + data_offset, 8);
     }
     return std::span(storage_).first(count);
   }
@@ -163,9 +166,9 @@ class UdpBus final : public CanBus {
   }
 
   Descriptor receiver_, sender_;
-  sockaddr_in group_, own_{};
+  sockaddr_in group_, own_address_{};
   std::array<CanFrame, frames_per_datagram> storage_;  ///< of the last datagram
-  std::span<CanFrame> waiting_;                        ///< its frames not yet returned
+  std::span<CanFrame> waiting_;  ///< frames of storage_ that were not yet returned
   FrameSink* sink_ = nullptr;
   BusCounters counters_;
 };

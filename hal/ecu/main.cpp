@@ -14,7 +14,7 @@
 namespace {
 
 struct Request {
-  std::string robot, bus = erp::own_bus(), converters = "127.0.0.1:21000";
+  std::string robot, bus = erp::default_bus(), converters = "127.0.0.1:21000";
   std::vector<int> only;
 };
 

@@ -23,9 +23,9 @@ namespace board {
 namespace {
 
 constexpr std::int64_t ms = 1'000'000, restart_ns = 20 * ms;
-/// Processor time: the watchdog resets 10 ms after the last kick, of which up to one period is idle.
+/// Processor time since the last kick: 10 ms of the watchdog minus one period, which may be idle.
 constexpr std::int64_t watchdog_ns = 8 * ms;
-constexpr int could_not_run = 1, robot_gone = 3;  // exit codes of an ECU's process
+constexpr int start_failed = 1, robot_silent = 3;  // exit codes of an ECU's process
 
 std::int64_t read_clock_ns(clockid_t clock) {
   timespec time{};
@@ -34,12 +34,12 @@ std::int64_t read_clock_ns(clockid_t clock) {
 }
 std::int64_t now_ns() { return read_clock_ns(CLOCK_MONOTONIC); }
 
-/// An ECU has a processor of its own; here it runs before other programs, if that is permitted.
+/// An ECU has its own processor. Here it preempts other programs if that is permitted.
 void set_real_time_priority(int priority) {
   const sched_param param{priority};
   (void)::sched_setscheduler(0, SCHED_FIFO, &param);
 }
-constexpr int program_priority = 10, circuit_priority = 20;
+constexpr int program_priority = 10, supply_priority = 20;
 
 /// One ECU: its process, while it has power.
 class Ecu {
@@ -47,49 +47,50 @@ class Ecu {
   explicit Ecu(const Rack::Slot& slot) : slot_(slot) {}
 
   bool on() const { return pid_ > 0; }
-  bool pending_or_on() const { return on() || due_ns_; }
+  bool is_needed() const { return on() || restart_due_ns_; }
   pid_t pid() const { return pid_; }
 
   void start(frame_reset_cause cause) {
     int pipe[2];
     if (::pipe2(pipe, O_NONBLOCK | O_CLOEXEC) != 0) return;
-    due_ns_.reset();
+    restart_due_ns_.reset();
     pid_ = ::fork();
     if (pid_ == 0) become_program(cause, pipe[1]);
     ::close(pipe[1]);
-    kicks_ = pipe[0];
-    kicked_ = false;
+    kick_pipe_ = pipe[0];
+    has_kicked_ = false;
     std::printf("ecu %d: process %d\n", slot_.fitted.ecu, pid_);
     std::fflush(stdout);
   }
 
   /// Restarts the process when due; resets it when it hangs.
   void supervise() {
-    if (due_ns_ && now_ns() >= *due_ns_) start(due_cause_);
+    if (restart_due_ns_ && now_ns() >= *restart_due_ns_) start(restart_cause_);
     if (!on()) return;
     std::array<char, 64> kicks;
     bool kicked = false;
-    while (::read(kicks_, kicks.data(), kicks.size()) > 0) kicked = true;
-    if (kicked || !kicked_) time_at_kick_ns_ = processor_time_ns(), kicked_ = kicked_ || kicked;
-    if (kicked_ && processor_time_ns() - time_at_kick_ns_ >= watchdog_ns) reset_by_watchdog();
+    while (::read(kick_pipe_, kicks.data(), kicks.size()) > 0) kicked = true;
+    if (kicked || !has_kicked_)
+      time_at_kick_ns_ = processor_time_ns(), has_kicked_ = has_kicked_ || kicked;
+    if (has_kicked_ && processor_time_ns() - time_at_kick_ns_ >= watchdog_ns) reset_by_watchdog();
   }
 
-  void has_ended(int status) {
+  void on_end(int status) {
     release_pwm();
-    ::close(kicks_);
+    ::close(kick_pipe_);
     pid_ = 0;
-    if (WIFEXITED(status) && WEXITSTATUS(status) == could_not_run) return;
+    if (WIFEXITED(status) && WEXITSTATUS(status) == start_failed) return;
     const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-    const bool without_supply =
-        !hung_ && (signal == SIGKILL || signal == SIGTERM ||
-                   (WIFEXITED(status) && WEXITSTATUS(status) == robot_gone));
-    due_cause_ = without_supply ? FRAME_RESET_BROWN_OUT : FRAME_RESET_WATCHDOG;
-    due_ns_ = now_ns() + restart_ns;
+    const bool lost_supply =
+        !is_hung_ && (signal == SIGKILL || signal == SIGTERM ||
+                      (WIFEXITED(status) && WEXITSTATUS(status) == robot_silent));
+    restart_cause_ = lost_supply ? FRAME_RESET_BROWN_OUT : FRAME_RESET_WATCHDOG;
+    restart_due_ns_ = now_ns() + restart_ns;
     std::printf("ecu %d: %s\n", slot_.fitted.ecu,
-                hung_            ? "hung, reset by its watchdog"
-                : without_supply ? "lost its supply"
-                                 : "crashed, reset by its watchdog");
-    hung_ = false;
+                is_hung_      ? "hung, reset by its watchdog"
+                : lost_supply ? "lost its supply"
+                              : "crashed, reset by its watchdog");
+    is_hung_ = false;
   }
 
   void switch_off() {
@@ -110,12 +111,12 @@ class Ecu {
   }
 
   void reset_by_watchdog() {
-    hung_ = true;
+    is_hung_ = true;
     release_pwm();
     ::kill(pid_, SIGKILL);
     int status = 0;
     ::waitpid(pid_, &status, 0);
-    has_ended(status);
+    on_end(status);
   }
 
   [[noreturn]] void become_program(frame_reset_cause cause, int kick) {
@@ -126,11 +127,11 @@ class Ecu {
     ::sigprocmask(SIG_SETMASK, &none, nullptr);
     try {
       run(slot_.fitted, slot_.place, cause, kick);
-      ::_exit(robot_gone);
+      ::_exit(robot_silent);
     } catch (const std::exception& error) {
       std::fprintf(stderr, "ecu %d: %s\n", slot_.fitted.ecu, error.what());
     }
-    ::_exit(could_not_run);
+    ::_exit(start_failed);
   }
 
   std::int64_t processor_time_ns() const {
@@ -140,11 +141,11 @@ class Ecu {
 
   Rack::Slot slot_;
   pid_t pid_ = 0;
-  int kicks_ = -1;
-  bool kicked_ = false, hung_ = false;
+  int kick_pipe_ = -1;
+  bool has_kicked_ = false, is_hung_ = false;
   std::int64_t time_at_kick_ns_ = 0;  ///< processor time at the last kick
-  std::optional<std::int64_t> due_ns_;
-  frame_reset_cause due_cause_ = FRAME_RESET_POWER;
+  std::optional<std::int64_t> restart_due_ns_;
+  frame_reset_cause restart_cause_ = FRAME_RESET_POWER;
 };
 
 int ending_signals() {
@@ -155,31 +156,31 @@ int ending_signals() {
   return ::signalfd(-1, &set, SFD_NONBLOCK | SFD_CLOEXEC);
 }
 
-void collect(std::vector<Ecu>& ecus) {
+void collect_ended(std::vector<Ecu>& ecus) {
   int status = 0;
   for (pid_t pid = 0; (pid = ::waitpid(-1, &status, WNOHANG)) > 0;)
     for (Ecu& ecu : ecus)
-      if (ecu.pid() == pid) ecu.has_ended(status);
+      if (ecu.pid() == pid) ecu.on_end(status);
 }
 
 }  // namespace
 
 int run_rack(const Rack& rack) {
   const int signals = ending_signals();
-  set_real_time_priority(circuit_priority);
+  set_real_time_priority(supply_priority);
   std::vector<Ecu> ecus(rack.slots.begin(), rack.slots.end());
   for (Ecu& ecu : ecus) ecu.start(FRAME_RESET_POWER);
-  const auto is_needed = [](const Ecu& ecu) { return ecu.pending_or_on(); };
+  const auto is_needed = [](const Ecu& ecu) { return ecu.is_needed(); };
   pollfd ended{signals, POLLIN, 0};
-  const timespec often{0, 500'000};
-  while (::ppoll(&ended, 1, &often, nullptr) == 0 && std::ranges::any_of(ecus, is_needed)) {
+  const timespec poll_period{0, 500'000};
+  while (::ppoll(&ended, 1, &poll_period, nullptr) == 0 && std::ranges::any_of(ecus, is_needed)) {
     for (Ecu& ecu : ecus) ecu.supervise();
-    collect(ecus);
+    collect_ended(ecus);
   }
-  const bool ran = std::ranges::any_of(ecus, is_needed);
+  const bool any_ran = std::ranges::any_of(ecus, is_needed);
   for (Ecu& ecu : ecus) ecu.switch_off();
   ::close(signals);
-  return ran ? 0 : 1;
+  return any_ran ? 0 : 1;
 }
 
 }  // namespace board

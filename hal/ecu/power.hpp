@@ -9,8 +9,9 @@
 /// The hardware around the microcontrollers: supply, reset circuit, watchdog and PWM stage of each.
 ///
 ///   ended by SIGKILL, SIGTERM      loss of supply: PWM off, restart after 20 ms, cause reported
-///   the robot no longer answers    the same
-///   ended otherwise, or no kick for 10 ms of work    watchdog: PWM off, restart, cause reported
+///   the robot no longer answers    as for SIGKILL
+///   ended otherwise, or 10 ms of computing without a kick
+///                                  watchdog: PWM off, restart, cause reported
 ///   ended with an error message    stays off
 namespace board {
 

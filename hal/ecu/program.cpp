@@ -31,9 +31,9 @@ int converter_socket(const sockaddr_in& robot) {
   return fd;
 }
 
-/// Processor time of this program, without the time that other programs of this machine took: an ECU
-/// has no other programs.
-std::int64_t worked_ns() {
+/// Processor time of this program. It excludes the time of other programs, because an ECU runs
+/// none.
+std::int64_t processor_time_ns() {
   timespec time{};
   ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return std::int64_t{1'000'000'000} * time.tv_sec + time.tv_nsec;
@@ -62,42 +62,43 @@ class Program {
     if (ready[1].revents) read_converters();
     std::uint64_t periods = 0;
     if (::read(timer_, &periods, sizeof periods) > 0) on_timer();
-    return silent_periods_ < (period_.readings.turn ? lockstep_periods : robot_gone_periods);
+    return silent_periods_ < (period_.readings.turn ? lockstep_periods : robot_silent_periods);
   }
 
  private:
-  static constexpr int robot_gone_periods = 50;   ///< without a reading: 100 ms; chosen
-  static constexpr int lockstep_periods = 5'000;  ///< in lockstep: 10 s; chosen
+  static constexpr int robot_poll_ms = 8;          ///< chosen: four periods
+  static constexpr int robot_silent_periods = 50;  ///< without a reading: 100 ms; chosen
+  static constexpr int lockstep_periods = 5'000;   ///< in lockstep: 10 s; chosen
 
   /// Requests readings until the robot answers; the ECU boots then.
   void wait_for_robot() {
     pollfd answer{converters_, POLLIN, 0};
     do {
       send_duties({});
-      requested_ = false;
+      readings_requested_ = false;
       request_readings();
-    } while (::poll(&answer, 1, 8) <= 0);
+    } while (::poll(&answer, 1, robot_poll_ms) <= 0);
   }
 
   /// Requests the readings of the next period; in lockstep after the host has answered this one.
   void request_readings() {
-    if (requested_ || ecu_board_awaits_host(&board_, &period_.readings)) return;
+    if (readings_requested_ || ecu_board_awaits_host(&board_, &period_.readings)) return;
     std::array<std::uint8_t, WIRE_MESSAGE_MAX> bytes;
     const unsigned size = wire_pack_sample(bytes.data(), fitted_.ecu, period_.readings.turn);
     (void)::send(converters_, bytes.data(), size, 0);
-    requested_ = true;
+    readings_requested_ = true;
   }
 
-  /// Repeats what may have been lost.
+  /// Repeats frames and requests that may have been lost.
   void on_timer() {
     kick();
     if (ecu_board_awaits_host(&board_, &period_.readings)) {
       silent_periods_ = 0;
-      if (++for_host_ % ECU_BOARD_REPEAT_PERIODS == 0) repeat();
+      if (++host_wait_periods_ % ECU_BOARD_REPEAT_PERIODS == 0) repeat();
       return;
     }
-    for_host_ = 0;
-    if (++silent_periods_ % ECU_BOARD_REQUEST_PERIODS == 0) requested_ = false;
+    host_wait_periods_ = 0;
+    if (++silent_periods_ % ECU_BOARD_REQUEST_PERIODS == 0) readings_requested_ = false;
     request_readings();
   }
   void repeat() {
@@ -116,36 +117,36 @@ class Program {
   void read_converters() {
     std::array<std::uint8_t, 1500> datagram;
     for (ssize_t n = 0; (n = ::recv(converters_, datagram.data(), datagram.size(), 0)) > 0;)
-      for (ssize_t i = 0; i < n; ++i) take(wire_take(&reader_, datagram[std::size_t(i)]));
+      for (ssize_t i = 0; i < n; ++i) handle(wire_take(&reader_, datagram[std::size_t(i)]));
   }
 
-  void take(wire_kind kind) {
-    if (kind == WIRE_READINGS) wire_unpack_readings(&reader_, &period_.readings), pass_period();
+  void handle(wire_kind kind) {
+    if (kind == WIRE_READINGS) wire_unpack_readings(&reader_, &period_.readings), run_period();
     if (kind != WIRE_FAULT) return;
     wire_fault fault;
     wire_unpack_fault(&reader_, &fault);
     if (fault.kind == WIRE_FAULT_HANG)
-      for (volatile bool for_ever = true; for_ever;) continue;
+      for (volatile bool forever = true; forever;) continue;
     if (fault.kind == WIRE_FAULT_BUSY) busy_periods_ = fault.periods;
     if (fault.kind == WIRE_FAULT_BUS_OFF) bus_off_periods_ = fault.periods;
   }
 
   /// The simulated robot sends readings every 2 ms of simulated time; this is the ECU's clock.
-  void pass_period() {
+  void run_period() {
     silent_periods_ = 0;
-    requested_ = false;
+    readings_requested_ = false;
     if (ecu_board_awaits_robot(&board_, &period_.readings)) return;  // repeated readings
-    const std::int64_t began_ns = worked_ns();
+    const std::int64_t start_ns = processor_time_ns();
     std::array<erp::CanFrame, ECU_LINK_FRAMES_MAX> frames;
     std::array<std::int16_t, 2> duty;
     period_.bus_off = bus_off_periods_ > 0;
     const unsigned count = ecu_board_period(&board_, &period_, duty.data(), frames.data());
     send_duties(duty);
     if (bus_off_periods_ == 0) bus_->send(std::span(frames).first(count));
-    while (busy_periods_ > 0 && worked_ns() - began_ns < period_ns) continue;
+    while (busy_periods_ > 0 && processor_time_ns() - start_ns < period_ns) continue;
     if (busy_periods_ > 0) --busy_periods_;
     if (bus_off_periods_ > 0) --bus_off_periods_;
-    period_.overran = worked_ns() - began_ns >= period_ns;
+    period_.overran = processor_time_ns() - start_ns >= period_ns;
     request_readings();
   }
 
@@ -153,7 +154,8 @@ class Program {
   void send_duties(const std::array<std::int16_t, 2>& duty) {
     std::array<std::uint8_t, WIRE_MESSAGE_MAX> bytes;
     const unsigned size = wire_pack_drive(bytes.data(), fitted_.ecu, duty.data());
-    (void)::send(converters_, bytes.data(), size, 0);  // no robot yet: the next period sends again
+    (void)::send(converters_, bytes.data(), size,
+                 0);  // may fail before the robot runs; the next period sends again
     kick();
   }
   void kick() { (void)!::write(kick_, "", 1); }
@@ -165,9 +167,9 @@ class Program {
   std::unique_ptr<erp::CanBus> bus_;
   int converters_, timer_;
   wire_reader reader_{};
-  bool requested_ = false;  ///< readings
-  int silent_periods_ = 0;  ///< since the last readings
-  unsigned for_host_ = 0;   ///< periods waited for the host, in lockstep
+  bool readings_requested_ = false;  ///< the next readings were requested
+  int silent_periods_ = 0;           ///< since the last readings
+  unsigned host_wait_periods_ = 0;   ///< lockstep: periods of waiting for the host
   unsigned busy_periods_ = 0, bus_off_periods_ = 0;
 };
 

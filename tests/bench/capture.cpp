@@ -1,6 +1,6 @@
-// Duration of motion capture for a pair of images, and error of its joint angles: the arm moves
-// through its figure at 100 pairs per second, with noise and bone lengths of
-// configs/arm/motion_capture.xml.
+// Measures the duration of motion capture for a pair of images, and the error of its joint angles.
+// The arm moves as in figure 8 of the paper, with 100 pairs per second. Noise and bone lengths are
+// those of configs/arm/motion_capture.xml.
 #include <cstdio>
 #include <numbers>
 
@@ -13,41 +13,43 @@ namespace {
 
 constexpr double period_s = 0.01, degree = std::numbers::pi / 180;
 
-sim::JointPath figure(const erp::Robot& robot) {
+sim::JointPath motion_of_figure_8(const erp::Robot& robot) {
   return {robot.joints(),
           sim::poses_of(recording::read_table(ERP_SOURCE_DIR "/configs/arm/figure_8.csv"), robot)};
 }
 
-/// Sum of squared errors of each joint, and number of images in which its angle was known.
+/// Sum of squared errors of each joint, and number of pairs in which its angle was known.
 struct Errors {
   std::vector<double> square_rad2;
-  std::vector<int> known;
+  std::vector<int> known_count;
 
-  explicit Errors(std::size_t joints) : square_rad2(joints), known(joints) {}
-  void take(const capture::Captured& found, std::span<const sim::JointReading> truth) {
+  explicit Errors(std::size_t joints) : square_rad2(joints), known_count(joints) {}
+  void add(const capture::Captured& captured, std::span<const sim::JointReading> truth) {
     for (std::size_t j = 0; j < truth.size(); ++j) {
-      if (!found.known[j]) continue;
-      const auto way =
-          sim::displacement(truth[j].type, truth[j].position, found.joints[j].position);
-      square_rad2[j] += way[0] * way[0] + way[1] * way[1] + way[2] * way[2];
-      ++known[j];
+      if (!captured.known[j]) continue;
+      const auto error_rad =
+          sim::displacement(truth[j].type, truth[j].position, captured.joints[j].position);
+      square_rad2[j] +=
+          error_rad[0] * error_rad[0] + error_rad[1] * error_rad[1] + error_rad[2] * error_rad[2];
+      ++known_count[j];
     }
   }
 };
 
-void print(const char* what, bench::Times& times) {
-  std::printf("%-24s p50 %7.2f ms, p99 %7.2f ms: %4.0f per second\n", what, 1e-3 * times.at(0.5),
-              1e-3 * times.at(0.99), 1e6 / times.mean());
+void print(const char* label, bench::Durations& durations) {
+  std::printf("%-24s p50 %7.2f ms, p99 %7.2f ms: %4.0f per second\n", label,
+              1e-3 * durations.quantile_us(0.5), 1e-3 * durations.quantile_us(0.99),
+              1e6 / durations.mean_us());
 }
 
 }  // namespace
 
 int main() {
   tests::Studio studio;
-  const auto path = figure(studio.robot);
+  const auto path = motion_of_figure_8(studio.robot);
   const auto joints = studio.robot.joints();
-  capture::Capture capturing = studio.capture();
-  bench::Times rendering, capturing_times;
+  capture::Capture motion_capture = studio.capture();
+  bench::Durations rendering_durations, capture_durations;
   Errors errors(joints.size());
   std::vector<sim::JointMotion> motions;
   int pairs = 0;
@@ -56,16 +58,17 @@ int main() {
     std::vector<sim::JointReading> truth;
     for (const auto& motion : motions) truth.push_back(motion.now);
     std::array<sim::cameras::Image, 2> pair;
-    std::optional<capture::Captured> found;
-    rendering.take([&] { pair = studio.images(truth); });
-    capturing_times.take([&] { found = capturing.see(pair[0], pair[1], period_s); });
-    if (found) errors.take(*found, truth);
+    std::optional<capture::Captured> captured;
+    rendering_durations.measure([&] { pair = studio.images(truth); });
+    capture_durations.measure(
+        [&] { captured = motion_capture.process(pair[0], pair[1], period_s); });
+    if (captured) errors.add(*captured, truth);
   }
-  print("render a pair", rendering);
-  print("pair to joint angles", capturing_times);
+  print("render a pair", rendering_durations);
+  print("pair to joint angles", capture_durations);
   for (std::size_t j = 0; j < joints.size(); ++j)
-    if (errors.known[j] > 0)
+    if (errors.known_count[j] > 0)
       std::printf("%-24s %.3f° RMS, known in %d of %d pairs\n", joints[j].name.c_str(),
-                  std::sqrt(errors.square_rad2[j] / errors.known[j]) / degree, errors.known[j],
-                  pairs);
+                  std::sqrt(errors.square_rad2[j] / errors.known_count[j]) / degree,
+                  errors.known_count[j], pairs);
 }

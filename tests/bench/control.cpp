@@ -1,5 +1,5 @@
-// Duration of a cycle of the joint controllers, and comparison of the quadratic program with CGAL's
-// solver.
+// Measures the duration of a cycle of the joint controllers, and compares the tension distribution
+// with CGAL's solver of quadratic programs.
 #include <CGAL/MP_Float.h>
 #include <CGAL/QP_functions.h>
 #include <CGAL/QP_models.h>
@@ -17,7 +17,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-using bench::Times;
+using bench::Durations;
 
 /// A robot with joint references that oscillate about the initial pose.
 struct Oscillation {
@@ -51,35 +51,38 @@ struct Oscillation {
     names.write(motions, target.message);
     state.message.joints._length = 0;
     for (const auto& desired : erp::samples(target.message.joints)) {
-      erp::JointStateSample now{};
-      erp::assign(now.name, desired.name);
-      std::ranges::copy(desired.position, now.position);
-      std::ranges::copy(desired.velocity_rad_per_s, now.velocity_rad_per_s);
-      erp::append(state.message.joints, now);
+      erp::JointStateSample actual{};
+      erp::assign(actual.name, desired.name);
+      std::ranges::copy(desired.position, actual.position);
+      std::ranges::copy(desired.velocity_rad_per_s, actual.velocity_rad_per_s);
+      erp::append(state.message.joints, actual);
     }
   }
 };
 
 void cycle_row(const std::string& name) {
-  Oscillation run(name);
-  control::ComputedForce control({}, run.robot);
-  pose::PoseEstimator estimator({}, run.robot);
-  sim::Musculoskeletal model(run.robot);
-  Times controls, estimates;
+  Oscillation oscillation(name);
+  control::ComputedForce control({}, oscillation.robot);
+  pose::PoseEstimator estimator({}, oscillation.robot);
+  sim::Musculoskeletal model(oscillation.robot);
+  Durations control_durations, estimator_durations;
   for (int k = 0; k < 5000; ++k) {
-    run.move_to(0.002 * k);
-    controls.take([&] { (void)control.step(run.frame, 0.002, run.state, run.target); });
-    estimates.take([&] { (void)estimator.step(run.frame, 0.002, {}, {}); });
+    oscillation.move_to(0.002 * k);
+    control_durations.measure([&] {
+      (void)control.step(oscillation.frame, 0.002, oscillation.state, oscillation.target);
+    });
+    estimator_durations.measure([&] { (void)estimator.step(oscillation.frame, 0.002, {}, {}); });
   }
   std::printf("| %-9s | %2zu | %3d | %7.1f | %7.1f | %7.1f | %7.1f |\n", name.c_str(),
-              run.robot.actuators.size(), model.coordinates(), controls.at(0.5), controls.at(0.99),
-              estimates.at(0.5), estimates.at(0.99));
+              oscillation.robot.actuators.size(), model.coordinates(),
+              control_durations.quantile_us(0.5), control_durations.quantile_us(0.99),
+              estimator_durations.quantile_us(0.5), estimator_durations.quantile_us(0.99));
 }
 
 // ---- the quadratic program ----
 
 struct Program {
-  MatrixXd l;
+  MatrixXd jacobian;
   VectorXd torque;
 };
 
@@ -88,55 +91,60 @@ std::vector<Program> programs(const erp::Robot& robot, int count) {
   sim::Musculoskeletal model(robot);
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
-  std::vector<Program> all;
+  std::vector<Program> programs_to_solve;
   VectorXd torque;
   model.skeleton().gravity_torques(torque);
   for (int k = 0; k < count; ++k) {
     torque += 0.05 * VectorXd::NullaryExpr(torque.size(), [&] { return normal(random); });
-    all.push_back({model.jacobian(), torque});
+    programs_to_solve.push_back({model.jacobian(), torque});
   }
-  return all;
+  return programs_to_solve;
 }
 
-/// The same program for CGAL:  min ½ fᵀ f − f°ᵀ f  with  Lᵀ f = −τ,  low ≤ f ≤ high.
-VectorXd by_cgal(const Program& program, const sim::ObjectiveTerms& terms) {
+/// Solves a program with CGAL:  min ½ fᵀ f − f°ᵀ f  with  Lᵀ f = −τ,  low ≤ f ≤ high.
+/// Returns NaN if it is infeasible.
+VectorXd solve_with_cgal(const Program& program, const sim::ObjectiveTerms& terms) {
   CGAL::Quadratic_program<double> qp(CGAL::EQUAL, true, 0, true, 0);
-  const int n = static_cast<int>(program.l.rows()), m = static_cast<int>(program.l.cols());
+  const int n = static_cast<int>(program.jacobian.rows()),
+            m = static_cast<int>(program.jacobian.cols());
   for (int a = 0; a < n; ++a) {
     qp.set_l(a, true, terms.low_N[a]), qp.set_u(a, true, terms.high_N[a]);
     qp.set_d(a, a, 1), qp.set_c(a, -terms.preferred_N[a]);
-    for (int d = 0; d < m; ++d) qp.set_a(a, d, program.l(a, d));
+    for (int d = 0; d < m; ++d) qp.set_a(a, d, program.jacobian(a, d));
   }
   for (int d = 0; d < m; ++d) qp.set_b(d, -program.torque[d]);
   const auto solution = CGAL::solve_quadratic_program(qp, CGAL::MP_Float());
-  VectorXd f = VectorXd::Constant(n, std::nan(""));
-  if (solution.is_infeasible()) return f;
+  VectorXd tension_N = VectorXd::Constant(n, std::nan(""));
+  if (solution.is_infeasible()) return tension_N;
   int a = 0;
   for (auto value = solution.variable_values_begin(); value != solution.variable_values_end();
        ++value)
-    f[a++] = CGAL::to_double(*value);
-  return f;
+    tension_N[a++] = CGAL::to_double(*value);
+  return tension_N;
 }
 
 void program_row(const std::string& name) {
   const erp::Robot robot = erp::read_robot(ERP_SOURCE_DIR "/configs/" + name + "/robot.xml");
   const sim::ObjectiveTerms terms =
       sim::objective_terms(robot, sim::TensionObjective::least_tension, 5);
-  const auto all = programs(robot, 20);
-  sim::TensionDistribution distribution(terms, static_cast<int>(all[0].l.cols()));
-  Times ours, cgal;
+  const auto programs_to_solve = programs(robot, 20);
+  sim::TensionDistribution distribution(terms, static_cast<int>(programs_to_solve[0].jacobian.cols()));
+  Durations erp_durations, cgal_durations;
   double difference_N = 0;
   int solved = 0;
-  for (const Program& program : all) {
-    VectorXd f, g;
-    ours.take([&] { f = distribution.distribute(program.l, program.torque); });
-    cgal.take([&] { g = by_cgal(program, terms); });
-    if (g.hasNaN()) continue;
+  for (const Program& program : programs_to_solve) {
+    VectorXd tension_N, cgal_tension_N;
+    erp_durations.measure(
+        [&] { tension_N = distribution.distribute(program.jacobian, program.torque); });
+    cgal_durations.measure([&] { cgal_tension_N = solve_with_cgal(program, terms); });
+    if (cgal_tension_N.hasNaN()) continue;
     ++solved;
-    difference_N = std::max(difference_N, (f - g).cwiseAbs().maxCoeff());
+    difference_N = std::max(difference_N, (tension_N - cgal_tension_N).cwiseAbs().maxCoeff());
   }
-  std::printf("| %-9s | %7.1f | %9.1f | %5.0f | %2d of %zu | %.1e |\n", name.c_str(), ours.at(0.5),
-              cgal.at(0.5), cgal.at(0.5) / ours.at(0.5), solved, all.size(), difference_N);
+  std::printf("| %-9s | %7.1f | %9.1f | %5.0f | %2d of %zu | %.1e |\n", name.c_str(),
+              erp_durations.quantile_us(0.5), cgal_durations.quantile_us(0.5),
+              cgal_durations.quantile_us(0.5) / erp_durations.quantile_us(0.5), solved,
+              programs_to_solve.size(), difference_N);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ fi
 robot=$1
 shift
 
-line() {  # the text behind a label, of the first $3 lines that begin with it; default: 1 line
+text_after() {  # prints the text after label $1 in file $2, for the first $3 lines with that label (default 1)
   sed -n "s/^$1 *//p" "$2" | head -n "${3:-1}" | paste -sd ';' | tr '|' '/'
 }
 
@@ -22,11 +22,11 @@ echo "|---|---|---|---|---|---|---|---|"
 for folder in "$@"; do
   name=$(basename "$folder")
   mkdir -p "$out/$name"
-  began=$(date +%s)
+  begin_s=$(date +%s)
   "$erp" gap diagnose --robot "$robot" --real "$folder"/*.{csv,mcap} --out "$out/$name" \
     >"$out/$name/output" 2>&1 || [ $? -ge 3 ] || echo "$name: failed, see $out/$name/output" >&2
   output=$out/$name/output
-  echo "| $name | $(line verdict "$output") | $(line location "$output") | $(line cause "$output" 3) |" \
-    "$(line equivalent "$output" 3) | $(line 'gap closure' "$output") | $(line 'free run' "$output") |" \
-    "$(($(date +%s) - began)) |"
+  echo "| $name | $(text_after verdict "$output") | $(text_after location "$output") | $(text_after cause "$output" 3) |" \
+    "$(text_after equivalent "$output" 3) | $(text_after 'gap closure' "$output") | $(text_after 'free run' "$output") |" \
+    "$(($(date +%s) - begin_s)) |"
 done

@@ -1,5 +1,5 @@
-// Duration of a diagnosis against the number of actuators, the number of effects and the length of the four recordings.
-// Google Benchmark; --benchmark_format=json prints JSON.
+// Measures the duration of a diagnosis for several numbers of actuators, numbers of effects and
+// lengths of the four recordings, with Google Benchmark. --benchmark_format=json prints JSON.
 #include <benchmark/benchmark.h>
 
 #include "sim/gap/blind/record.hpp"
@@ -18,18 +18,19 @@ erp::Robot read(const std::string& robot) {
 std::vector<Episode> recordings(const erp::Robot& robot, double seconds) {
   sim::blind::Case hidden = sim::blind::draw_case(robot, sim::blind::Kind::null, 1);
   hidden.hidden_effects.channels[0].viscous = 0.02;
-  std::vector<Episode> all;
+  std::vector<Episode> episodes;
   std::vector<std::string> remarks;
   for (int k = 0; k < 4; ++k)
-    all.push_back(sim::residuals::lay_out(
+    episodes.push_back(sim::residuals::lay_out(
         sim::blind::record(robot, hidden, sim::excitation(robot, k, seconds, 5),
                            static_cast<std::uint64_t>(k)),
         robot, "recording " + std::to_string(k + 1), remarks));
-  return all;
+  return episodes;
 }
 
-/// Effects to withhold, so that every `stride`-th effect of the library and the true one remain.
-std::vector<std::string> withheld_for(int stride) {
+/// Returns the effects to withhold. Every `stride`-th effect of the library and the true effect
+/// remain.
+std::vector<std::string> effects_to_withhold(int stride) {
   std::vector<std::string> withheld;
   int n = 0;
   for (const auto& effect : sim::effects::library())
@@ -41,10 +42,10 @@ std::vector<std::string> withheld_for(int stride) {
 
 void diagnose(benchmark::State& state, const erp::Robot& robot, double seconds, int stride) {
   const auto episodes = recordings(robot, seconds);
-  const auto withheld = withheld_for(stride);
+  const auto withheld = effects_to_withhold(stride);
   for (auto _ : state) {
-    const auto d = sim::diagnosis::diagnose(robot, episodes, {.withhold = withheld});
-    if (d.verdict != sim::diagnosis::Verdict::supported)
+    const auto diagnosis = sim::diagnosis::diagnose(robot, episodes, {.withhold = withheld});
+    if (diagnosis.verdict != sim::diagnosis::Verdict::supported)
       state.SkipWithError("the friction is not identified");
   }
   state.counters["actuators"] = static_cast<double>(robot.actuators.size());

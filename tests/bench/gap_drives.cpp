@@ -1,5 +1,6 @@
-// Diagnoses of a light drive with known friction, against the sampling period, a constant load, a disturbance that no law
-// explains, and the motion (sums of sines, steady speeds). Prints a table. Exits with 1 if a supported answer is wrong.
+// Diagnoses a light drive with known friction. The cases differ in sampling period, constant load,
+// a disturbance that no law explains, and motion (sums of sines, steady speeds). Prints a table.
+// Exits with 1 if a supported answer is wrong.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,19 +18,19 @@ using sim::diagnosis::IdentifiedEffect;
 
 struct Case {
   const char* motion;
-  bool steady;
+  bool is_steady;
   light_drive::Light light;
   light_drive::Rows rows;
 };
 
 struct Result {
   Diagnosis diagnosis;
-  double turned_back;
+  double reversal_fraction;
 };
 
-Result diagnosed(const Case& c) {
-  const auto tables = c.steady ? light_drive::at_steady_speeds(c.light, c.rows)
-                               : light_drive::of_sines(c.light, c.rows);
+Result diagnose_case(const Case& c) {
+  const auto tables = c.is_steady ? light_drive::at_steady_speeds(c.light, c.rows)
+                                  : light_drive::of_sines(c.light, c.rows);
   const erp::Robot robot = sim::residuals::as_chains(light_drive::description());
   std::vector<sim::residuals::Episode> episodes;
   std::vector<std::string> remarks;
@@ -48,24 +49,26 @@ double truth(const std::string& type, const light_drive::Light& light) {
                                         : 0;
 }
 
-/// Whether both frictions are identified and the interval of every identified effect contains the true value.
-bool is_true(const Diagnosis& d, const light_drive::Light& light) {
-  const auto has = [&](const char* type) {
+/// Whether both frictions are identified and the interval of every identified effect contains the
+/// true value.
+bool is_correct(const Diagnosis& d, const light_drive::Light& light) {
+  const auto is_identified = [&](const char* type) {
     return std::ranges::any_of(d.answer, [&](const IdentifiedEffect& n) { return n.type == type; });
   };
-  const auto holds = [&](const IdentifiedEffect& n) {
+  const auto contains_truth = [&](const IdentifiedEffect& n) {
     const double value = truth(n.type, light);
     return value != 0 && n.intervals[0].low <= value && value <= n.intervals[0].high;
   };
-  return has("gearbox_coulomb") && has("gearbox_viscous") && std::ranges::all_of(d.answer, holds);
+  return is_identified("gearbox_coulomb") && is_identified("gearbox_viscous") &&
+         std::ranges::all_of(d.answer, contains_truth);
 }
 
 std::string values_of(const Diagnosis& d) {
-  std::string all;
+  std::string text;
   for (const IdentifiedEffect& n : d.answer)
-    all += fmt::format("{}{} {:.4g} ({:.4g} … {:.4g})", all.empty() ? "" : "; ", n.type,
-                       n.values[0], n.intervals[0].low, n.intervals[0].high);
-  return all;
+    text += fmt::format("{}{} {:.4g} ({:.4g} … {:.4g})", text.empty() ? "" : "; ", n.type,
+                        n.values[0], n.intervals[0].low, n.intervals[0].high);
+  return text;
 }
 
 }  // namespace
@@ -80,24 +83,24 @@ int main() {
         cases.push_back(
             {"six speeds", true, light, {.period_s = period_s, .seconds = 4, .noise_rad = 1e-5}});
       }
-  bool all_right = true;
+  bool all_correct = true;
   fmt::print(
       "| motion | period, ms | load, Nm | disturbance, Nm | rows with reversal, % | verdict | "
       "right | answer |\n");
   fmt::print("|---|---|---|---|---|---|---|---|\n");
   for (const Case& c : cases) {
-    const auto [d, turned_back] = diagnosed(c);
-    const bool right = is_true(d, c.light);
+    const auto [d, reversal_fraction] = diagnose_case(c);
+    const bool correct = is_correct(d, c.light);
     const bool supported = d.verdict == sim::diagnosis::Verdict::supported;
-    all_right &= !supported || right;
+    all_correct &= !supported || correct;
     fmt::print("| {} | {:g} | {:g} | {:g} | {:.1f} | {} | {} | {} |\n", c.motion,
-               1e3 * c.rows.period_s, c.light.load_Nm, c.light.disturbance_Nm, 100 * turned_back,
-               sim::diagnosis::word(d.verdict),
-               right       ? "yes"
+               1e3 * c.rows.period_s, c.light.load_Nm, c.light.disturbance_Nm,
+               100 * reversal_fraction, sim::diagnosis::word(d.verdict),
+               correct     ? "yes"
                : supported ? "NO"
                            : "-",
                values_of(d));
     std::fflush(stdout);
   }
-  return all_right ? 0 : 1;
+  return all_correct ? 0 : 1;
 }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Checks that recordings of the graphs in launch/ show no gap, since the simulated robot matches robot.xml.
-#   tests/bench/gap_graphs.sh                every graph whose components move the robot, complete motion
+# Checks that recordings of the graphs in launch/ show no gap. The simulated robot equals robot.xml.
+#   tests/bench/gap_graphs.sh                complete motions of every graph whose components move the robot
 #   tests/bench/gap_graphs.sh arm 10s        one graph, with this duration
 # puller_follower_twin is excluded: its limb is loaded with 0.2 kg that robot.xml does not contain.
 # Prints one line per graph with the result of `erp gap where`. Exits with 1 if there is a gap.

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Success rates of the diagnosis on hidden effects, one row per kind of case, on seeds not used for development.
+# Measures success rates of the diagnosis on hidden effects. Each row is one kind of case. The seeds were not used for
+# development.
 #   tests/bench/gap_rows.sh                 every row; takes hours
 #   tests/bench/gap_rows.sh null pair       these rows
 # Writes cases and scores to erp_runs/gap_rows, and all scores so far to erp_runs/gap_rows/gap_rows.md. A row that was
@@ -40,9 +41,9 @@ run_row() {  # name robot kind cases seed tolerance without
   fi
   local free_run=
   [[ $1 == tolerance* || $1 == many* ]] && free_run=--free-run
-  local began=$SECONDS
+  local begin_s=$SECONDS
   $erp gap blind run "$cases" ${free_run:+$free_run}
-  echo $((SECONDS - began)) >>"$out/$1.seconds"
+  echo $((SECONDS - begin_s)) >>"$out/$1.seconds"
   $erp gap blind score "$cases" --truth "$truth" | tee "$out/$1.score"
   $erp --version >"$out/$1.version"
 }
@@ -64,11 +65,11 @@ $(awk '{s += $1} END {print s}' "$out/$name.seconds") s on $(nproc) cores; $(cat
 }
 
 mkdir -p "$out"
-known=$(awk 'NF {print $1}' <<<"$rows")
-for name in ${*:-$known}; do
+all_rows=$(awk 'NF {print $1}' <<<"$rows")
+for name in ${*:-$all_rows}; do
   row=$(awk -v name="$name" '$1 == name' <<<"$rows")
   if [ -z "$row" ]; then
-    echo "gap_rows: unknown row \"$name\"; known rows:" $known >&2
+    echo "gap_rows: unknown row \"$name\"; known rows:" $all_rows >&2
     exit 2
   fi
   # shellcheck disable=SC2086

@@ -1,5 +1,5 @@
-// Duration of a step of the simulator, of a control law and of the plant, without processes. Google Benchmark;
-// --benchmark_format=json prints JSON.
+// Measures the duration of a step of the simulator, of a control law and of the plant, in one
+// process, with Google Benchmark. --benchmark_format=json prints JSON.
 #include <benchmark/benchmark.h>
 
 #include "components/plant/plant.hpp"
@@ -22,7 +22,7 @@ void count_steps(benchmark::State& state) {
       benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
 }
 
-void step_ours(benchmark::State& state, const erp::Robot& robot) {
+void step_world(benchmark::State& state, const erp::Robot& robot) {
   sim::World world(robot);
   const std::vector<double> voltage_V(world.actuators().size(), 0.1);
   for (auto _ : state) world.step(voltage_V, 0.001);
@@ -37,13 +37,14 @@ void step_mujoco(benchmark::State& state, const erp::Robot& robot) {
   count_steps(state);
 }
 
-/// One physics step of 1 ms, motors and tendons included, no ECUs.
-void world_step(benchmark::State& state, const char* robot) { step_ours(state, read(robot)); }
+/// One physics step of 1 ms with motors and tendons, without ECUs.
+void world_step(benchmark::State& state, const char* robot) { step_world(state, read(robot)); }
 BENCHMARK_CAPTURE(world_step, hinge_rig, "hinge_rig");
 BENCHMARK_CAPTURE(world_step, arm, "arm");
 BENCHMARK_CAPTURE(world_step, ecce4, "ecce4");
 
-/// The exported model in MuJoCo: the same bones, tendons, frictions and limits, without motors, springs and spindles.
+/// The exported model in MuJoCo: the same bones, tendons, frictions and limits, without motors,
+/// springs and spindles.
 void mujoco_step(benchmark::State& state, const char* robot) { step_mujoco(state, read(robot)); }
 BENCHMARK_CAPTURE(mujoco_step, hinge_rig, "hinge_rig");
 BENCHMARK_CAPTURE(mujoco_step, arm, "arm");
@@ -58,7 +59,7 @@ erp::Robot arms(long tendons) {
 }
 
 void tendons_step(benchmark::State& state) {
-  step_ours(state, arms(state.range(0)));
+  step_world(state, arms(state.range(0)));
   state.SetComplexityN(state.range(0));
 }
 void tendons_mujoco(benchmark::State& state) {

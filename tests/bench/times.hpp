@@ -10,21 +10,24 @@ inline double now_us() {
   return 1e-3 * static_cast<double>(std::chrono::steady_clock::now().time_since_epoch().count());
 }
 
-/// Durations of calls, in µs.
-struct Times {
-  std::vector<double> us;
+/// Measured durations of calls.
+struct Durations {
+  std::vector<double> durations_us;
   template <class Work>
-  void take(Work&& work) {
-    const double began = now_us();
+  void measure(Work&& work) {
+    const double begin_us = now_us();
     work();
-    us.push_back(now_us() - began);
+    durations_us.push_back(now_us() - begin_us);
   }
-  double at(double share) {
-    std::ranges::sort(us);
-    return us[static_cast<std::size_t>(share * static_cast<double>(us.size() - 1))];
+  /// The duration that the fraction `probability` of the calls does not exceed.
+  double quantile_us(double probability) {
+    std::ranges::sort(durations_us);
+    return durations_us[static_cast<std::size_t>(probability *
+                                                 static_cast<double>(durations_us.size() - 1))];
   }
-  double mean() const {
-    return std::accumulate(us.begin(), us.end(), 0.0) / static_cast<double>(us.size());
+  double mean_us() const {
+    return std::accumulate(durations_us.begin(), durations_us.end(), 0.0) /
+           static_cast<double>(durations_us.size());
   }
 };
 

@@ -1,4 +1,4 @@
-// Steps of controllers do not touch the heap, from the second one on.
+// The steps of controllers do not use the heap, from the second step on.
 #include <catch2/catch.hpp>
 
 #include "components/computed_force/computed_force.hpp"
@@ -11,35 +11,35 @@ namespace {
 
 struct Bench : JointBench {
   explicit Bench(const std::string& name) : JointBench(name + "/robot.xml") {}
-  /// Everything moves a little, so that bounds come and go.
+  /// Changes all inputs slightly, so that constraints become active and inactive.
   void wiggle(int k) {
-    const double by = 0.02 * std::sin(0.3 * k);
-    for (auto& sample : erp::samples(state.message.joints)) sample.velocity_rad_per_s[0] = by;
+    const double change = 0.02 * std::sin(0.3 * k);
+    for (auto& sample : erp::samples(state.message.joints)) sample.velocity_rad_per_s[0] = change;
     for (auto& sample : erp::samples(target.message.joints))
-      sample.acceleration_rad_per_s2[0] = 50 * by;
-    for (auto& sample : erp::samples(frame.actuators)) sample.shaft_rad = by;
+      sample.acceleration_rad_per_s2[0] = 50 * change;
+    for (auto& sample : erp::samples(frame.actuators)) sample.shaft_rad = change;
   }
 };
 
-/// Steps all of it forty times; the heap must rest from the third on.
+/// Performs forty steps; the heap must not be used from the third step on.
 template <class Step>
 void check_heap(Bench& bench, Step step) {
   std::size_t before = 0;
-  int answered = 0;
+  int commands = 0;
   for (int k = 0; k < 40; ++k) {
     bench.wiggle(k);
     if (k == 2) before = tests::allocations();
-    answered += step();
+    commands += step();
   }
   const std::size_t after = tests::allocations();
   INFO(bench.robot.name);
   CHECK(after == before);
-  CHECK(answered == 40);
+  CHECK(commands == 40);
 }
 
 }  // namespace
 
-TEST_CASE("computed force and the pose estimator do not touch the heap") {
+TEST_CASE("computed force and the pose estimator do not use the heap") {
   for (const std::string name : {"arm", "ecce4"}) {
     Bench bench(name);
     control::ComputedForce control({}, bench.robot);
@@ -51,7 +51,7 @@ TEST_CASE("computed force and the pose estimator do not touch the heap") {
   }
 }
 
-TEST_CASE("a Jacobian that is learned online does not touch the heap") {
+TEST_CASE("a Jacobian that is learned online does not use the heap") {
   Bench bench("arm");
   control::ComputedForce::Params params;
   params.jacobian = control::JacobianKind::on_line;
@@ -61,7 +61,7 @@ TEST_CASE("a Jacobian that is learned online does not touch the heap") {
   });
 }
 
-TEST_CASE("puller-follower does not touch the heap") {
+TEST_CASE("puller-follower does not use the heap") {
   Bench bench("seven_dof");
   for (const auto law : {control::Law::linearised, control::Law::loop_shaping}) {
     control::PullerFollower::Params params;

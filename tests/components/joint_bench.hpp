@@ -18,15 +18,15 @@ struct JointBench {
 
   explicit JointBench(const std::string& config)
       : robot(erp::read_robot(ERP_SOURCE_DIR "/configs/" + config)) {
-    std::vector<sim::JointMotion> still;
-    for (const auto& joint : names.list()) still.push_back({sim::initial_reading(joint), {}});
-    names.write(still, target.message);
+    std::vector<sim::JointMotion> targets;
+    for (const auto& joint : names.list()) targets.push_back({sim::initial_reading(joint), {}});
+    names.write(targets, target.message);
     for (const auto& sample : erp::samples(target->joints)) {
-      erp::JointStateSample now{};
-      erp::assign(now.name, sample.name);
-      now.dof = sample.dof;
-      std::ranges::copy(sample.position, now.position);
-      erp::append(state.message.joints, now);
+      erp::JointStateSample state_sample{};
+      erp::assign(state_sample.name, sample.name);
+      state_sample.dof = sample.dof;
+      std::ranges::copy(sample.position, state_sample.position);
+      erp::append(state.message.joints, state_sample);
     }
     for (const auto& actuator : robot.actuators) {
       erp::ActuatorSample sample{};
@@ -46,11 +46,12 @@ struct JointBench {
   /// The references of a command by actuator.
   Eigen::VectorXd references(const std::optional<erp::ActuatorCommand>& command) {
     REQUIRE(command);
-    Eigen::VectorXd all(model.length_m().size());
-    for (Eigen::Index a = 0; a < all.size(); ++a) all[a] = command->actuators._buffer[a].reference;
-    return all;
+    Eigen::VectorXd values(model.length_m().size());
+    for (Eigen::Index a = 0; a < values.size(); ++a)
+      values[a] = command->actuators._buffer[a].reference;
+    return values;
   }
-  /// −Lᵀ f of a command of forces.
+  /// Joint torque −Lᵀ f of a command of tendon forces f, in Nm.
   Eigen::VectorXd torque_of(const std::optional<erp::ActuatorCommand>& command) {
     return -model.jacobian().transpose() * references(command);
   }

@@ -5,36 +5,36 @@
 #include "hal/can/robot_buses.hpp"
 #include "interfaces/robot/robot.hpp"
 #include "tests/faults/pin_relay.hpp"
+#include "tests/faults/reaction_times.hpp"
 #include "tests/faults/recorders.hpp"
-#include "tests/faults/row.hpp"
 #include "tests/system/background.hpp"
 
-/// A running robot for fault injection: the graph, its ECUs as separate programs, a relay on their pins,
-/// a recorder on the CAN bus and one on the events.
+/// A running robot for fault injection: the graph, its ECUs as separate programs, a relay on their
+/// pins, a recorder on the CAN bus and one on the events.
 namespace faults {
 
 using namespace std::chrono_literals;
 inline constexpr std::int64_t ms = 1'000'000;
 
-/// The hinge rig under length control, moving back and forth by the given amount, with the sensors needed
-/// to detect every fault: potentiometers, force sensors with a live zero, temperature by gains that a
-/// test sets.
+/// The hinge rig under length control, moving back and forth by the given amount, with the sensors
+/// needed to detect every fault: potentiometers, force sensors with a live zero, temperature by
+/// gains that a test sets.
 inline void write_rig(const tests::Folder& folder, double amplitude_m = 0) {
   std::string robot = tests::content(ERP_SOURCE_DIR "/configs/hinge_rig/robot.xml");
-  const auto put = [&](const std::string& before, const std::string& text) {
-    robot.insert(robot.find(before), text);
+  const auto put = [&](const std::string& position, const std::string& text) {
+    robot.insert(robot.find(position), text);
   };
-  const auto change = [&](const std::string& from, const std::string& to) {
-    robot.replace(robot.find(from), from.size(), to);
+  const auto replace = [&](const std::string& old_text, const std::string& new_text) {
+    robot.replace(robot.find(old_text), old_text.size(), new_text);
   };
-  change("tension_noise_N=\"0.05\"", "tension_noise_N=\"0.1\" tension_zero_counts=\"200\"");
+  replace("tension_noise_N=\"0.05\"", "tension_noise_N=\"0.1\" tension_zero_counts=\"200\"");
   for (const auto& [actuator, input] : {std::pair{"flexor", "1"}, {"extensor", "2"}})
     put("</robot>", std::string("<potentiometer actuator=\"") + actuator + "\" ecu=\"0\" input=\"" +
                         input + "\" bits=\"12\" range_rad=\"20\" start_rad=\"10\"/>\n");
   std::ofstream(folder / "robot.xml") << robot;
   std::ofstream lengths(folder / "lengths.csv");
   lengths << "time_s,flexor.mode,flexor.reference,extensor.mode,extensor.reference\n";
-  for (int k = 0; k <= 100; ++k) {  // a triangle of two seconds: at 8 mm 16 mm/s
+  for (int k = 0; k <= 100; ++k) {  // a triangle with a period of 2 s: 16 mm/s at 8 mm
     const double phase = k / 100.0, up = phase < 0.25   ? phase
                                          : phase < 0.75 ? 0.5 - phase
                                                         : phase - 1;
@@ -53,10 +53,10 @@ inline void write_rig(const tests::Folder& folder, double amplitude_m = 0) {
 
 class Bench {
  public:
-  /// `robot` and `graph`: files; default: the rig above. `host_bus`: the gateway's bus, if different from
-  /// the ECUs'.
+  /// `robot` and `graph`: files; default: the rig above. `host_bus`: the gateway's bus, if
+  /// different from the ECUs'.
   explicit Bench(const std::string& robot = "", const std::string& graph = "",
-                 std::vector<std::string> more = {}, const std::string& host_bus = bus())
+                 std::vector<std::string> options = {}, const std::string& host_bus = bus())
       : robot_file_(robot.empty() ? folder_ / "robot.xml" : robot) {
     if (robot.empty()) write_rig(folder_);
     robot_ = erp::read_robot(robot_file_);
@@ -67,7 +67,7 @@ class Bench {
     relay_ = std::make_unique<PinRelay>(relay_port, robot_port);
     bus_recorder_ =
         std::make_unique<BusRecorder>(erp::bus_specifications(bus(), robot_.buses().size()));
-    std::vector<std::string> words{
+    std::vector<std::string> arguments{
         "launch",     graph.empty() ? folder_ / "graph.xml" : graph,
         "--device",   "can",
         "--restarts", "100",
@@ -75,8 +75,8 @@ class Bench {
         "--set",      "gateway.bus=" + host_bus,
         "--set",      "sim.bus=" + bus(),
         "--set",      "sim.converter_port=" + std::to_string(robot_port)};
-    words.insert(words.end(), more.begin(), more.end());
-    graph_ = std::make_unique<tests::Background>(words, folder_ / "graph.txt");
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    graph_ = std::make_unique<tests::Background>(arguments, folder_ / "graph.txt");
     REQUIRE(graph_->wait_for_output("all components are active"));
     settle();
   }
@@ -85,9 +85,9 @@ class Bench {
     rack_->stop(SIGTERM);
   }
 
-  /// The ECUs' bus, and the bus of a gateway at the other end of a cable.
+  /// The ECUs' bus, and the bus of a gateway on the other side of a cable.
   static std::string bus() { return "udp:239.255.42.9:" + std::to_string(26000 + 16 * own_domain); }
-  static std::string far_bus() {
+  static std::string host_bus_behind_cable() {
     return "udp:239.255.42.10:" + std::to_string(26000 + 16 * own_domain);
   }
   const erp::Robot& robot() const { return robot_; }
@@ -98,7 +98,7 @@ class Bench {
   tests::Background& rack() { return *rack_; }
   const node::Entity& participant() const { return participant_; }
 
-  /// Kills or stops the graph's process of that name. Returns its id.
+  /// Process id of the graph's component with this program name.
   pid_t process(const std::string& program) {
     pid_t pid = 0;
     REQUIRE(tests::wait_until([&] { return (pid = graph_->child(program)) > 0; }));
@@ -107,30 +107,31 @@ class Bench {
   /// The process that runs an ECU's firmware.
   pid_t ecu(int address) {
     const std::string message = rack_->output(),
-                      words = "ecu " + std::to_string(address) + ": process ";
-    return std::stoi(message.substr(message.rfind(words) + words.size()));
+                      prefix = "ecu " + std::to_string(address) + ": process ";
+    return std::stoi(message.substr(message.rfind(prefix) + prefix.size()));
   }
-  /// Waits until every channel has run for 300 ms.
-  bool recovers() {
-    const auto patience = node::monotonic_ns() + 5000 * ms;
-    bool well = false;
-    tests::wait_until([&] { return (well = all_run()) || node::monotonic_ns() > patience; });
-    return well;
+  /// Waits until every channel has run for 300 ms; false after 5 s.
+  bool wait_until_running() {
+    const auto deadline_ns = node::monotonic_ns() + 5000 * ms;
+    bool all_running = false;
+    tests::wait_until(
+        [&] { return (all_running = all_run()) || node::monotonic_ns() > deadline_ns; });
+    return all_running;
   }
-  /// Prepares a new injection: waits until all channels run and clears the recorders. Clears latched faults
-  /// that the last injection did not cause by an operator command and prints them. Returns how many.
+  /// Prepares a new injection: waits until all channels run and clears the recorders. Faults that
+  /// remain latched are cleared by an operator command and printed. Returns their number.
   int settle() {
-    pins().leave_alone();
-    int tries = 0;
-    for (; !recovers(); ++tries) {
-      if (tries == 3)
-        FAIL("the graph does not come back:\n" << graph_->output() << rack_->output());
+    pins().pass_unchanged();
+    int attempts = 0;
+    for (; !wait_until_running(); ++attempts) {
+      if (attempts == 3)
+        FAIL("the graph does not recover:\n" << graph_->output() << rack_->output());
       std::printf("  (fault without injection, cleared: %s)\n", last_fault().c_str());
-      say_off();
+      command_off();
     }
-    pins().forget();
-    bus_recorder_->forget();
-    return tries;
+    pins().clear();
+    bus_recorder_->clear();
+    return attempts;
   }
   std::string last_fault() {
     std::string text = "no fault reported";
@@ -140,14 +141,14 @@ class Bench {
   }
   /// Waits until `find()` returns a time; 0 after a timeout.
   template <class Find>
-  std::int64_t await(Find find, int for_ms = 3000) {
+  std::int64_t wait_for(Find find, int for_ms = 3000) {
     for (int k = 0; k < for_ms; ++k) {
       if (const std::int64_t at = find()) return at;
       std::this_thread::sleep_for(1ms);
     }
     return 0;
   }
-  /// Time at which both PWM outputs of an ECU stay at 0 after `from_ns`; 0: they do not.
+  /// Time from which both PWM outputs of an ECU stay at 0 after `from_ns`; 0: they do not.
   std::int64_t pwm_off(std::int64_t from_ns, int ecu = 0, int channel = -1) {
     std::int64_t since = 0;
     for (const auto& drive : pins().drives_since(from_ns)) {
@@ -165,7 +166,7 @@ class Bench {
       if (drive.ecu == ecu) return drive.at_ns;
     return 0;
   }
-  /// Time at which an ECU first reported that fault.
+  /// Time at which an ECU first reported the fault.
   std::int64_t emergency(std::int64_t from_ns, int fault) {
     return bus_recorder_->first(from_ns, [&](const erp::CanFrame& frame) {
       frame_emergency message;
@@ -176,37 +177,39 @@ class Bench {
   std::int64_t boot(std::int64_t from_ns, int cause) {
     return bus_recorder_->first(from_ns, [&](const erp::CanFrame& frame) {
       frame_emergency message;
-      return frame_unpack_emergency(&frame, &message) && message.boot && message.reset_cause == cause;
+      return frame_unpack_emergency(&frame, &message) && message.boot &&
+             message.reset_cause == cause;
     });
   }
   /// The controller of the first actuator, as the plant publishes it (ten times a second).
   std::string owner() {
     node::Reader<erp::ActuatorOwner> owners(participant_, wake_);
-    std::string found = "?";
+    std::string owner = "?";
     tests::wait_until([&] {
-      owners.take([&](const erp::ActuatorOwner& m) { found = m.actuators._buffer[0].owner; });
-      return found != "?";
+      owners.take([&](const erp::ActuatorOwner& m) { owner = m.actuators._buffer[0].owner; });
+      return owner != "?";
     });
-    return found;
+    return owner;
   }
-  /// Clears latched faults: commands off for a while, as an operator would.
-  void say_off();
+  /// Clears latched faults: commands mode off for 250 ms, as an operator would.
+  void command_off();
 
  private:
-  /// Whether every channel has been running for 300 ms and has sent at the beginning and end of that time.
+  /// True if every channel has been running for 300 ms and has sent at the beginning and end of
+  /// that time.
   bool all_run() {
-    const auto to = node::wall_ns(), from = to - 300 * ms;
-    std::map<std::uint16_t, bool> ran_long, speaks;
-    for (const auto& received : bus_recorder_->since(from)) {
+    const auto end_ns = node::wall_ns(), begin_ns = end_ns - 300 * ms;
+    std::map<std::uint16_t, bool> ran_at_start, ran_at_end;
+    for (const auto& received : bus_recorder_->since(begin_ns)) {
       frame_status message;
       if (!frame_unpack_status(&received.frame, &message)) continue;
       if (message.state != ECU_STATE_RUNNING) return false;
-      ran_long[received.frame.id] |= received.at_ns < from + 50 * ms;
-      speaks[received.frame.id] = received.at_ns > to - 50 * ms;
+      ran_at_start[received.frame.id] |= received.at_ns < begin_ns + 50 * ms;
+      ran_at_end[received.frame.id] = received.at_ns > end_ns - 50 * ms;
     }
-    const auto yes = [](const auto& channel) { return channel.second; };
-    return ran_long.size() == robot_.actuators.size() && std::ranges::all_of(ran_long, yes) &&
-           std::ranges::all_of(speaks, yes);
+    const auto is_true = [](const auto& channel) { return channel.second; };
+    return ran_at_start.size() == robot_.actuators.size() &&
+           std::ranges::all_of(ran_at_start, is_true) && std::ranges::all_of(ran_at_end, is_true);
   }
 
   static inline const int relay_port = 31000 + 2 * own_domain, robot_port = relay_port + 1;
@@ -223,7 +226,7 @@ class Bench {
 };
 
 /// Command of an operator: all actuators off, at a higher priority than the controller.
-inline void Bench::say_off() {
+inline void Bench::command_off() {
   node::Writer<erp::ActuatorCommand> commands(participant_);
   erp::ActuatorCommand command;
   erp::assign(command.robot, robot_.name);

@@ -8,11 +8,11 @@ using namespace faults;
 namespace {
 
 /// A controller with higher priority than the rig's own; sends a given command every 5 ms.
-void asks(Bench& bench, double reference, int times) {
+void send_commands(Bench& bench, double reference, int times) {
   node::Writer<erp::ActuatorCommand> commands(bench.participant());
   erp::ActuatorCommand command;
   erp::assign(command.robot, bench.robot().name);
-  erp::assign(command.controller, "mad");
+  erp::assign(command.controller, "test_controller");
   command.priority = 50;
   erp::ActuatorReference r{};
   erp::assign(r.name, "flexor");
@@ -28,7 +28,7 @@ void asks(Bench& bench, double reference, int times) {
 }
 
 /// Fails if the flexor's ECU has received a force command since then.
-tests::Complaints forces_since(Bench& bench, std::int64_t from_ns) {
+tests::Findings forces_since(Bench& bench, std::int64_t from_ns) {
   int forces = 0;
   for (const auto& received : bench.bus_recorder().since(from_ns)) {
     frame_command message;
@@ -36,7 +36,7 @@ tests::Complaints forces_since(Bench& bench, std::int64_t from_ns) {
               message.channel[0].request == ECU_REQUEST_FORCE;
   }
   if (forces == 0) return {};
-  return {std::to_string(forces) + " commands of force, which its own controller never asks for"};
+  return {std::to_string(forces) + " commands of force, which its own controller never sends"};
 }
 
 }  // namespace
@@ -44,16 +44,16 @@ tests::Complaints forces_since(Bench& bench, std::int64_t from_ns) {
 TEST_CASE("set-points that are not a number or far out of range are refused with the reason") {
   Bench bench;
   for (const double reference : {std::nan(""), double{INFINITY}, 1e6, -50.0})
-    tests::in_real_time([&] {  // length_control commands again, if the machine keeps time
+    tests::in_real_time([&] {  // length_control commands again if the machine does not stall
       bench.settle();
-      const auto from = node::wall_ns();
-      asks(bench, reference, 40);
-      return forces_since(bench, from);
+      const auto injected_ns = node::wall_ns();
+      send_commands(bench, reference, 40);
+      return forces_since(bench, injected_ns);
     });
   CHECK(bench.events().first(1, "reference", "flexor") != 0);
 }
 
-TEST_CASE("five corrupt commands in a row trip, four do not; wrong lengths count as corrupt") {
+TEST_CASE("five consecutive corrupt commands trip, four do not; wrong lengths count as corrupt") {
   Bench bench;
   const auto corrupt = [](std::size_t count) {
     std::vector<erp::CanFrame> frames;
@@ -67,26 +67,26 @@ TEST_CASE("five corrupt commands in a row trip, four do not; wrong lengths count
     }
     return frames;
   };
-  const auto tripped = [&](std::int64_t from) {
-    return bench.await([&] { return bench.emergency(from, ECU_FAULT_CORRUPT); }, 100);
+  const auto tripped = [&](std::int64_t injected_ns) {
+    return bench.wait_for([&] { return bench.emergency(injected_ns, ECU_FAULT_CORRUPT); }, 100);
   };
   for (int k = 0; k < injections(); ++k) {
-    auto from = node::wall_ns();
+    auto injected_ns = node::wall_ns();
     bench.bus_recorder().send(corrupt(4));
-    CHECK(tripped(from) == 0);
+    CHECK(tripped(injected_ns) == 0);
   }
-  Row row("five corrupt frames in a row", "ECU's emergency frame", 4);
-  while (row.needs_more()) {
+  ReactionTimes reaction("five consecutive corrupt frames", "ECU's emergency frame", 4);
+  while (reaction.needs_more()) {
     bench.settle();
-    const auto from = node::wall_ns();
+    const auto injected_ns = node::wall_ns();
     bench.bus_recorder().send(corrupt(5));
-    row.add(from, tripped(from));
+    reaction.add(injected_ns, tripped(injected_ns));
   }
-  row.check();
+  reaction.check();
 }
 
 /// The rig with 20 N on both tendons; the flexor's tendon snaps after 4 s.
-void write_rig_that_snaps(const tests::Folder& folder) {
+void write_rig_with_snapping_tendon(const tests::Folder& folder) {
   write_rig(folder);
   std::ofstream(folder / "sim.xml")
       << "<sim><fault kind=\"tendon_snaps\" on=\"flexor\" at_s=\"4\"/></sim>\n";
@@ -103,18 +103,20 @@ void write_rig_that_snaps(const tests::Folder& folder) {
          "</graph>\n";
 }
 
-TEST_CASE("after a tendon snaps its actuator is released and no motor runs away") {
+TEST_CASE("after a tendon snaps its actuator is switched off") {
   tests::Folder folder;
-  write_rig_that_snaps(folder);
-  Row slack("tendon snapped", "detected by the plant", 22);
+  write_rig_with_snapping_tendon(folder);
+  ReactionTimes slack("tendon snapped", "detected by the plant", 22);
   while (slack.needs_more(1 + injections() / 5)) {
     Bench bench(folder / "robot.xml", folder / "graph.xml");
-    const auto broke =
-        bench.await([&] { return bench.events().first(1, "fault_injected", "flexor"); }, 8000);
-    REQUIRE(broke != 0);
-    slack.add(broke, bench.await([&] { return bench.events().first(broke, "tendon_slack"); }));
-    CHECK(bench.await([&] { return bench.events().first(broke, "tendon_snapped"); }, 8000) != 0);
-    CHECK(bench.await([&] { return bench.pwm_off(broke, 0, 0); }) != 0);
+    const auto snapped_ns =
+        bench.wait_for([&] { return bench.events().first(1, "fault_injected", "flexor"); }, 8000);
+    REQUIRE(snapped_ns != 0);
+    slack.add(snapped_ns,
+              bench.wait_for([&] { return bench.events().first(snapped_ns, "tendon_slack"); }));
+    CHECK(bench.wait_for([&] { return bench.events().first(snapped_ns, "tendon_snapped"); },
+                         8000) != 0);
+    CHECK(bench.wait_for([&] { return bench.pwm_off(snapped_ns, 0, 0); }) != 0);
   }
   slack.check();
 }

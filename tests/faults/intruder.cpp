@@ -1,8 +1,9 @@
-// An unauthorised participant: commands every actuator off at the highest priority, and listens.
+// An unauthorised participant: commands mode off to every actuator at the highest priority, and
+// receives sensor frames.
 //   intruder ROBOT.xml SECONDS [NAME]
-// With a NAME it claims to be that component of the robot, started first.
-// Prints the largest numbers of matched readers and writers, the number of received frames, and the time
-// until both were matched.
+// With a NAME it claims to be the component of that name, and to have joined first.
+// Prints the largest numbers of matched readers and writers, the number of received frames, and the
+// time until both were matched.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -58,7 +59,7 @@ void intrude(const erp::Robot& robot, double for_s, const std::string& name) {
     if (readers && writers && !matched_ns) matched_ns = node::monotonic_ns() - from_ns;
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
-  std::printf("readers %u writers %u heard %u after_ms %.0f\n", readers, writers, received,
+  std::printf("readers %u writers %u received %u after_ms %.0f\n", readers, writers, received,
               1e-6 * static_cast<double>(matched_ns));
 }
 

@@ -33,68 +33,76 @@ bool is_command(const erp::CanFrame& frame) { return frame_function_of(&frame) =
 
 /// The rig's safe action: force mode at 2 N on both channels.
 bool relaxes(const erp::CanFrame& frame) {
-  frame_command message;
-  if (!frame_unpack_command(&frame, &message)) return false;
-  return std::ranges::all_of(message.channel, [](const frame_channel_command& c) {
+  frame_command emergency;
+  if (!frame_unpack_command(&frame, &emergency)) return false;
+  return std::ranges::all_of(emergency.channel, [](const frame_channel_command& c) {
     return c.request == ECU_REQUEST_FORCE && c.setpoint == 2000;
   });
 }
 
 }  // namespace
 
-TEST_CASE("gateway killed") {
-  Row::head();
+TEST_CASE("after the gateway is killed the ECUs set PWM to 0 within 52 ms") {
+  ReactionTimes::print_header();
   Bench bench;
-  Row message("gateway killed", "ECU's emergency frame", 52), off("gateway killed", "PWM 0", 52);
-  while (off.needs_more()) {
+  ReactionTimes emergency("gateway killed", "ECU's emergency frame", 52),
+      pwm_off("gateway killed", "PWM 0", 52);
+  while (pwm_off.needs_more()) {
     bench.settle();
     const pid_t gateway = bench.process("gateway");
-    const auto from = node::wall_ns();
+    const auto injected_ns = node::wall_ns();
     kill(gateway, SIGKILL);
-    message.add(from, bench.await([&] { return bench.emergency(from, ECU_FAULT_COMMAND_TIMEOUT); }));
-    off.add(from, bench.await([&] { return bench.pwm_off(from); }));
+    emergency.add(injected_ns, bench.wait_for([&] {
+      return bench.emergency(injected_ns, ECU_FAULT_COMMAND_TIMEOUT);
+    }));
+    pwm_off.add(injected_ns, bench.wait_for([&] { return bench.pwm_off(injected_ns); }));
   }
-  message.check(), off.check();
+  emergency.check(), pwm_off.check();
   bench.settle();
 }
 
-TEST_CASE("gateway stopped, and no burst when it resumes") {
+TEST_CASE("while the gateway is stopped PWM is 0; when it resumes it sends no burst") {
   Bench bench;
-  Row message("gateway stopped", "ECU's emergency frame", 52), off("gateway stopped", "PWM 0", 52);
-  while (off.needs_more()) {
+  ReactionTimes emergency("gateway stopped", "ECU's emergency frame", 52),
+      pwm_off("gateway stopped", "PWM 0", 52);
+  while (pwm_off.needs_more()) {
     bench.settle();
     const pid_t gateway = bench.process("gateway");
-    const auto from = node::wall_ns();
+    const auto injected_ns = node::wall_ns();
     kill(gateway, SIGSTOP);
-    message.add(from, bench.await([&] { return bench.emergency(from, ECU_FAULT_COMMAND_TIMEOUT); }));
-    off.add(from, bench.await([&] { return bench.pwm_off(from); }));
+    emergency.add(injected_ns, bench.wait_for([&] {
+      return bench.emergency(injected_ns, ECU_FAULT_COMMAND_TIMEOUT);
+    }));
+    pwm_off.add(injected_ns, bench.wait_for([&] { return bench.pwm_off(injected_ns); }));
     std::this_thread::sleep_for(200ms);
-    const auto again = node::wall_ns();
+    const auto resumed_ns = node::wall_ns();
     kill(gateway, SIGCONT);
     std::this_thread::sleep_for(20ms);
     int burst = 0;
-    for (const auto& received : bench.bus_recorder().since(again))
-      burst += is_command(received.frame) && received.at_ns < again + 2 * ms;
-    off.also("no burst after it resumes", again, burst <= 5);  // a hundred ticks are pending
+    for (const auto& received : bench.bus_recorder().since(resumed_ns))
+      burst += is_command(received.frame) && received.at_ns < resumed_ns + 2 * ms;
+    pwm_off.require("no burst after it resumes", resumed_ns,
+                    burst <= 5);  // a hundred ticks are pending
   }
-  message.check(), off.check();
+  emergency.check(), pwm_off.check();
   bench.settle();
 }
 
-/// Waits until the gateway reports again: repeated reports are limited in rate.
-bool may_be_said(Bench& bench, const std::string& code, const std::string& subject) {
+/// Waits until the gateway may report this event again, because repeated reports are limited in
+/// rate.
+bool can_be_reported(Bench& bench, const std::string& code, const std::string& subject) {
   return tests::wait_until([&] {
-    const auto lately = bench.events().since(node::wall_ns() - node::LogThrottle::window_ns);
-    return std::ranges::count_if(lately, [&](const auto& message) {
-             return message.code == code && message.subject == subject;
+    const auto recent = bench.events().since(node::wall_ns() - node::LogThrottle::window_ns);
+    return std::ranges::count_if(recent, [&](const auto& emergency) {
+             return emergency.code == code && emergency.subject == subject;
            }) < node::LogThrottle::burst;
   });
 }
 
-/// How long an ECU had sent nothing before `at_ns`: up to then, or up to a frame that arrived while the
-/// gateway was about to report. 0: not received since the bench settled.
-std::int64_t silent_for(Bench& bench, const std::string& name, std::int64_t at_ns) {
-  constexpr auto reporting_ns = std::int64_t(Row::scheduling_ms) * ms;
+/// Time without a frame of an ECU before `at_ns`, in ns. A frame that arrived during the delay of
+/// the gateway's report ends the silence. 0: no frame was received since the bench settled.
+std::int64_t silence_before_ns(Bench& bench, const std::string& name, std::int64_t at_ns) {
+  constexpr auto reporting_ns = std::int64_t(ReactionTimes::scheduling_ms) * ms;
   std::int64_t last_ns = 0, longest_ns = 0;
   const auto until = [&](std::int64_t next_ns) {
     if (last_ns && next_ns > at_ns - reporting_ns)
@@ -109,56 +117,60 @@ std::int64_t silent_for(Bench& bench, const std::string& name, std::int64_t at_n
   return longest_ns;
 }
 
-TEST_CASE("ECU silent") {
+TEST_CASE("a silent ECU is reported, and its limb takes the safe action within 60 ms") {
   tests::Folder folder;
   write_relaxing_arm(folder);
   Bench bench(folder / "robot.xml", folder / "graph.xml");
-  Row warned("ECU silent", "gateway's warning", 10 + 2),
+  ReactionTimes warning("ECU silent", "gateway's warning", 10 + 2),
       lost("ECU silent", "gateway: lost", 50 + 2),
-      safe("ECU silent", "its limb in the safe action", 60);
-  for (int k = 0; safe.needs_more(); ++k) {
+      safe_action("ECU silent", "its limb in the safe action", 60);
+  for (int k = 0; safe_action.needs_more(); ++k) {
     const int address = k % 6;
     const std::string name = "ecu " + std::to_string(address);
     bench.settle();
-    const bool sayable = may_be_said(bench, "ecu_silent", name);
+    const bool is_reportable = can_be_reported(bench, "ecu_silent", name);
     const pid_t ecu = bench.ecu(address);
-    const auto from = node::wall_ns();
+    const auto injected_ns = node::wall_ns();
     kill(ecu, SIGSTOP);
-    const auto reported = bench.await([&] { return bench.events().first(from, "ecu_silent", name); });
-    if (sayable) warned.add(from, reported);
-    else warned.discard();
-    lost.add(from, bench.await([&] { return bench.events().first(from, "ecu_lost", name); }));
-    safe.add(from, bench.await([&] {
-      return bench.bus_recorder().first(from, [&](const erp::CanFrame& frame) {
-        frame_command message;  // to one of the others: relax
-        return frame_ecu_of(&frame) == (address + 1) % 6 && frame_unpack_command(&frame, &message) &&
-               message.channel[0].request == ECU_REQUEST_FORCE;
+    const auto reported =
+        bench.wait_for([&] { return bench.events().first(injected_ns, "ecu_silent", name); });
+    if (is_reportable) warning.add(injected_ns, reported);
+    else warning.discard();
+    lost.add(injected_ns,
+             bench.wait_for([&] { return bench.events().first(injected_ns, "ecu_lost", name); }));
+    safe_action.add(injected_ns, bench.wait_for([&] {
+      return bench.bus_recorder().first(injected_ns, [&](const erp::CanFrame& frame) {
+        frame_command emergency;  // to one of the others: relax
+        return frame_ecu_of(&frame) == (address + 1) % 6 &&
+               frame_unpack_command(&frame, &emergency) &&
+               emergency.channel[0].request == ECU_REQUEST_FORCE;
       });
     }));
-    const auto slanders = [&](const auto& message) {
-      return message.code == "ecu_silent" && message.subject != name &&
-             silent_for(bench, message.subject, message.at_ns) < 9 * ms;
+    const auto is_false_report = [&](const auto& emergency) {
+      return emergency.code == "ecu_silent" && emergency.subject != name &&
+             silence_before_ns(bench, emergency.subject, emergency.at_ns) < 9 * ms;
     };
-    safe.also("nobody is called silent who spoke", from,
-              std::ranges::none_of(bench.events().since(from), slanders));
+    safe_action.require("no ECU that sends is reported as silent", injected_ns,
+                        std::ranges::none_of(bench.events().since(injected_ns), is_false_report));
     kill(ecu, SIGCONT);
   }
-  warned.check(), lost.check(), safe.check();
+  warning.check(), lost.check(), safe_action.check();
   bench.settle();
 }
 
-TEST_CASE("brown-out") {
+TEST_CASE("after a brown-out PWM is 0 within 2 ms, and the boot frame has the cause") {
   Bench bench;
-  Row message("brown-out, reset", "boot frame with the cause", 100),
-      off("brown-out, reset", "PWM 0", 2);
-  while (off.needs_more()) {
+  ReactionTimes emergency("brown-out, reset", "boot frame with the cause", 100),
+      pwm_off("brown-out, reset", "PWM 0", 2);
+  while (pwm_off.needs_more()) {
     bench.settle();
     const pid_t ecu = bench.ecu(0);
-    const auto from = node::wall_ns();
+    const auto injected_ns = node::wall_ns();
     kill(ecu, SIGKILL);
-    const auto booted = bench.await([&] { return bench.boot(from, FRAME_RESET_BROWN_OUT); });
-    message.add(from, booted);
-    off.add(from, bench.await([&] { return bench.pwm_off(from); }));
+    const auto booted =
+        bench.wait_for([&] { return bench.boot(injected_ns, FRAME_RESET_BROWN_OUT); });
+    emergency.add(injected_ns, booted);
+    pwm_off.add(injected_ns, bench.wait_for([&] { return bench.pwm_off(injected_ns); }));
     int armed = 0;  // in the 5 ms after its boot
     for (const auto& received : bench.bus_recorder().since(booted)) {
       frame_status status;
@@ -167,59 +179,67 @@ TEST_CASE("brown-out") {
     }
     CHECK(armed == 0);
   }
-  message.check(), off.check();
+  emergency.check(), pwm_off.check();
   bench.settle();
 }
 
-TEST_CASE("CPU hang") {
+TEST_CASE("a hanging ECU program is reset by its watchdog within 12 ms") {
   Bench bench;
-  Row off("CPU hang", "PWM 0", 12), message("CPU hang", "boot frame with the cause", 100);
-  while (off.needs_more()) {
+  ReactionTimes pwm_off("CPU hang", "PWM 0", 12),
+      emergency("CPU hang", "boot frame with the cause", 100);
+  while (pwm_off.needs_more()) {
     bench.settle();
-    const auto from = bench.pins().inject(0, WIRE_FAULT_HANG);
-    const auto booted = bench.await([&] { return bench.boot(from, FRAME_RESET_WATCHDOG); });
-    message.add(from, booted);
-    off.add(from, bench.await([&] { return bench.pwm_off(from); }));
+    const auto injected_ns = bench.pins().inject(0, WIRE_FAULT_HANG);
+    const auto booted =
+        bench.wait_for([&] { return bench.boot(injected_ns, FRAME_RESET_WATCHDOG); });
+    emergency.add(injected_ns, booted);
+    pwm_off.add(injected_ns, bench.wait_for([&] { return bench.pwm_off(injected_ns); }));
     int duties = 0;  // duties of a hanging program in the watchdog's 12 ms before the restart
     for (const auto& received : bench.bus_recorder().since(booted - 11 * ms))
       duties += received.at_ns < booted && !is_command(received.frame);
-    off.also("it sends nothing more", from, booted > 0 && duties == 0, booted > 0);
+    pwm_off.require("the hanging program sends no frame", injected_ns, booted > 0 && duties == 0,
+                    booted > 0);
   }
-  off.check(), message.check();
+  pwm_off.check(), emergency.check();
   bench.settle();
 }
 
-TEST_CASE("controller killed, and stopped") {
+TEST_CASE("after a controller is killed or stopped the safe action follows within 22 ms") {
   Bench bench;
   for (const int signal : {SIGKILL, SIGSTOP}) {
     const std::string fault = signal == SIGKILL ? "controller killed" : "controller stopped";
-    Row safe(fault, "safe action on the bus", 22);
-    while (safe.needs_more()) {
+    ReactionTimes safe_action(fault, "safe action on the bus", 22);
+    while (safe_action.needs_more()) {
       bench.settle();
       const pid_t controller = bench.process("length_control");
-      const auto from = node::wall_ns();
+      const auto injected_ns = node::wall_ns();
       kill(controller, signal);
-      safe.add(from, bench.await([&] { return bench.bus_recorder().first(from, relaxes); }));
+      safe_action.add(injected_ns, bench.wait_for([&] {
+        return bench.bus_recorder().first(injected_ns, relaxes);
+      }));
       CHECK(bench.owner() == "");
       if (signal == SIGSTOP) kill(controller, SIGCONT);
       CHECK(tests::wait_until([&] { return bench.owner() == "length_control"; }));
     }
-    safe.check();
+    safe_action.check();
   }
   bench.settle();
 }
 
-TEST_CASE("plant killed") {
+TEST_CASE("after the plant is killed the ECUs set PWM to 0 within 52 ms") {
   Bench bench;
-  Row plant("plant killed", "ECU's emergency frame", 52), off("plant killed", "PWM 0", 52);
-  while (off.needs_more()) {
+  ReactionTimes plant("plant killed", "ECU's emergency frame", 52),
+      pwm_off("plant killed", "PWM 0", 52);
+  while (pwm_off.needs_more()) {
     bench.settle();
     const pid_t pid = bench.process("plant");
-    const auto from = node::wall_ns();
+    const auto injected_ns = node::wall_ns();
     kill(pid, SIGKILL);
-    plant.add(from, bench.await([&] { return bench.emergency(from, ECU_FAULT_COMMAND_TIMEOUT); }));
-    off.add(from, bench.await([&] { return bench.pwm_off(from); }));
+    plant.add(injected_ns, bench.wait_for([&] {
+      return bench.emergency(injected_ns, ECU_FAULT_COMMAND_TIMEOUT);
+    }));
+    pwm_off.add(injected_ns, bench.wait_for([&] { return bench.pwm_off(injected_ns); }));
   }
-  plant.check(), off.check();
+  plant.check(), pwm_off.check();
   bench.settle();
 }

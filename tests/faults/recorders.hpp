@@ -33,29 +33,29 @@ class BusRecorder : erp::FrameSink {
 
   std::vector<RecordedFrame> since(std::int64_t from_ns) {
     const std::lock_guard lock(guard_);
-    std::vector<RecordedFrame> found;
-    for (const RecordedFrame& one : frames_)
-      if (one.at_ns >= from_ns) found.push_back(one);
-    return found;
+    std::vector<RecordedFrame> matching;
+    for (const RecordedFrame& recorded : frames_)
+      if (recorded.at_ns >= from_ns) matching.push_back(recorded);
+    return matching;
   }
-  /// Time of the first frame after `from_ns` for which `is` holds; 0: none yet.
-  template <class Is>
-  std::int64_t first(std::int64_t from_ns, Is is) {
-    for (const RecordedFrame& one : since(from_ns))
-      if (is(one.frame)) return one.at_ns;
+  /// Time of the first frame after `from_ns` for which `condition` holds; 0: none yet.
+  template <class Condition>
+  std::int64_t first(std::int64_t from_ns, Condition condition) {
+    for (const RecordedFrame& recorded : since(from_ns))
+      if (condition(recorded.frame)) return recorded.at_ns;
     return 0;
   }
   /// Sends on the first bus, as a foreign node.
   void send(std::span<const erp::CanFrame> frames) { buses_[0]->send(frames); }
-  void forget() {
+  void clear() {
     const std::lock_guard lock(guard_);
     frames_.clear();
   }
 
  private:
-  void frame(const erp::CanFrame& frame, std::int64_t stamp_ns, bool own) override {
+  void frame(const erp::CanFrame& frame, std::int64_t stamp_ns, bool is_own) override {
     const std::lock_guard lock(guard_);
-    if (!own) frames_.push_back({stamp_ns, frame});
+    if (!is_own) frames_.push_back({stamp_ns, frame});
   }
   void record(erp::CanBus& bus) {
     std::array<erp::CanFrame, 64> frames;
@@ -71,7 +71,7 @@ class BusRecorder : erp::FrameSink {
 /// Records the `event` topic.
 class EventRecorder {
  public:
-  struct Said {
+  struct RecordedEvent {
     std::int64_t at_ns;
     std::string component, subject, code, text;
   };
@@ -82,21 +82,23 @@ class EventRecorder {
     done_ = true;
     thread_.join();
   }
-  /// The stamp of the first such event after `from_ns`; 0: none yet. An empty subject matches all.
+  /// Stamp of the first event with this code after `from_ns`; 0: none yet. An empty subject matches
+  /// all.
   std::int64_t first(std::int64_t from_ns, const std::string& code,
                      const std::string& subject = "") {
     const std::lock_guard lock(guard_);
-    for (const Said& one : said_)
-      if (one.at_ns >= from_ns && one.code == code && (subject.empty() || one.subject == subject))
-        return one.at_ns;
+    for (const RecordedEvent& recorded : recorded_)
+      if (recorded.at_ns >= from_ns && recorded.code == code &&
+          (subject.empty() || recorded.subject == subject))
+        return recorded.at_ns;
     return 0;
   }
-  std::vector<Said> since(std::int64_t from_ns) {
+  std::vector<RecordedEvent> since(std::int64_t from_ns) {
     const std::lock_guard lock(guard_);
-    std::vector<Said> found;
-    for (const Said& one : said_)
-      if (one.at_ns >= from_ns) found.push_back(one);
-    return found;
+    std::vector<RecordedEvent> matching;
+    for (const RecordedEvent& recorded : recorded_)
+      if (recorded.at_ns >= from_ns) matching.push_back(recorded);
+    return matching;
   }
 
  private:
@@ -104,7 +106,7 @@ class EventRecorder {
     while (!done_) {
       events_.take([this](const erp::Event& e) {
         const std::lock_guard lock(guard_);
-        said_.push_back({e.stamp_ns, e.component, e.subject, e.code, e.text});
+        recorded_.push_back({e.stamp_ns, e.component, e.subject, e.code, e.text});
       });
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
@@ -112,7 +114,7 @@ class EventRecorder {
   node::Wake wake_;
   node::Reader<erp::Event> events_;
   std::mutex guard_;
-  std::vector<Said> said_;
+  std::vector<RecordedEvent> recorded_;
   std::atomic<bool> done_ = false;
   std::thread thread_;
 };

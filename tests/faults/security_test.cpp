@@ -5,7 +5,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "tests/faults/row.hpp"
+#include "tests/faults/reaction_times.hpp"
 #include "tests/system/background.hpp"
 #include "tests/system/recorded.hpp"
 
@@ -16,29 +16,29 @@ namespace {
 /// Results of an intruder after three seconds; a partner with a certificate needs half a second.
 struct Result {
   int readers = -1, writers = -1, received = -1, after_ms = 0;
-  bool nothing() const { return readers == 0 && writers == 0 && received == 0; }
-  bool driven() const { return readers > 0; }
-  bool listened() const { return writers > 0 && received > 100; }
+  bool is_isolated() const { return readers == 0 && writers == 0 && received == 0; }
+  bool commands_robot() const { return readers > 0; }
+  bool receives_frames() const { return writers > 0 && received > 100; }
 };
 
-Result intrude(const std::string& security, const std::string& claims_to_be = "") {
+Result intrude(const std::string& security, const std::string& claimed_name = "") {
   const auto message = run((security.empty() ? "" : "ERP_SECURITY=" + security + " ") +
-                        ERP_INTRUDER " configs/hinge_rig/robot.xml 3 " + claims_to_be);
+                           ERP_INTRUDER " configs/hinge_rig/robot.xml 3 " + claimed_name);
   INFO(message.output);
   REQUIRE(message.exit_code == 0);
   Result result;
-  std::istringstream words(message.output.substr(message.output.rfind("readers ")));
+  std::istringstream fields(message.output.substr(message.output.rfind("readers ")));
   std::string word;
-  words >> word >> result.readers >> word >> result.writers >> word >> result.received >> word >>
+  fields >> word >> result.readers >> word >> result.writers >> word >> result.received >> word >>
       result.after_ms;
   return result;
 }
 
-/// A tendon's step from 2 to 40 N, on a bus that is protected or not.
+/// A tension step of a tendon from 2 to 40 N, on a bus with or without protection.
 class Rig {
  public:
   explicit Rig(const std::string& security)
-      : graph_(words(security, folder_ / "run"), folder_ / "out.txt") {
+      : graph_(arguments(security, folder_ / "run"), folder_ / "out.txt") {
     REQUIRE(graph_.wait_for_output("all components are active"));
   }
   void stop() {
@@ -51,42 +51,42 @@ class Rig {
   std::string recording() const { return folder_ / "run/force_step.mcap"; }
 
   /// Number of received commands of the intruder.
-  int samples() const {
-    int found = 0;
+  int intruder_commands() const {
+    int count = 0;
     const Recorded commands(recording(), "actuator_command");
     for (const auto& message : commands.messages())
-      found += text(message, "controller") == "intruder";
-    return found;
+      count += text(message, "controller") == "intruder";
+    return count;
   }
-  /// Whether the plant processed any: accepted or rejected.
-  bool taken() const {
-    bool found = false;
+  /// True if the plant accepted or rejected a command of the intruder.
+  bool was_processed() const {
+    bool is_processed = false;
     const Recorded owners(recording(), "actuator_owner");
     REQUIRE(owners.messages().size() > 20);
     for (const auto& message : owners.messages())
       for (const auto& actuator : elements(message, "actuators"))
-        found = found || text(*actuator.members(), "owner") == "intruder" ||
-                number(*actuator.members(), "refused") > 0;
-    return found;
+        is_processed = is_processed || text(*actuator.members(), "owner") == "intruder" ||
+                       number(*actuator.members(), "refused") > 0;
+    return is_processed;
   }
-  /// The largest distance of the flexor's tension from its 40 N in the run's last second.
+  /// Largest difference of the flexor's tension from 40 N in the last second of the run.
   double error_N() const {
     const Recorded frames(recording(), "sensor_frame");
     const double end_ns = number(frames.messages().back(), "stamp_ns");
-    double largest = 0;
+    double largest_N = 0;
     for (const auto& frame : frames.messages())
       for (const auto& actuator : elements(frame, "actuators"))
         if (text(*actuator.members(), "name") == "flexor" &&
             number(frame, "stamp_ns") > end_ns - 1e9)
-          largest = std::max(largest, std::abs(number(*actuator.members(), "tension_N") - 40));
-    return largest;
+          largest_N = std::max(largest_N, std::abs(number(*actuator.members(), "tension_N") - 40));
+    return largest_N;
   }
 
  private:
-  static std::vector<std::string> words(const std::string& security, const std::string& out) {
-    std::vector<std::string> words{"launch", "launch/force_step.xml", "--out", out};
-    if (!security.empty()) words.insert(words.end(), {"--security", security});
-    return words;
+  static std::vector<std::string> arguments(const std::string& security, const std::string& out) {
+    std::vector<std::string> arguments{"launch", "launch/force_step.xml", "--out", out};
+    if (!security.empty()) arguments.insert(arguments.end(), {"--security", security});
+    return arguments;
   }
   Folder folder_;
   Background graph_;
@@ -95,56 +95,56 @@ class Rig {
 /// A robot's authority, and another one.
 struct Authorities {
   Folder folder;
-  std::string own = folder / "own", foreign = folder / "foreign";
+  std::string own_folder = folder / "own", foreign_folder = folder / "foreign";
   Authorities() {
     // Earlier tests of this process also try to join the bus: DDS reports each refusal.
     dds_set_log_sink([](void*, const dds_log_data_t*) {}, nullptr);
-    for (const auto& made : {own, foreign})
-      REQUIRE(run("erp security make " + made).exit_code == 0);
+    for (const auto& folder_name : {own_folder, foreign_folder})
+      REQUIRE(run("erp security make " + folder_name).exit_code == 0);
   }
 };
 
 }  // namespace
 
-TEST_CASE("an intruder commands and receives an unprotected graph") {
+TEST_CASE("in an unprotected graph an intruder's commands are accepted and it receives frames") {
   Rig rig("");
   const Result result = intrude("");
   rig.stop();
-  CHECK(result.driven());
-  CHECK(result.listened());
-  CHECK(rig.samples() > 100);
-  CHECK(rig.taken());
+  CHECK(result.commands_robot());
+  CHECK(result.receives_frames());
+  CHECK(rig.intruder_commands() > 100);
+  CHECK(rig.was_processed());
 }
 
 TEST_CASE(
     "without a certificate of the robot's authority an intruder neither commands nor receives") {
   const Authorities authorities;
-  Rig rig(authorities.own);
+  Rig rig(authorities.own_folder);
   int succeeded = 0;
   for (int k = 0; k < faults::injections(); ++k)
-    for (const auto& certificate : {std::string(), authorities.foreign}) {
+    for (const auto& certificate : {std::string(), authorities.foreign_folder}) {
       const Result result = intrude(certificate, k % 2 ? "plant" : "");
       INFO((certificate.empty() ? "no certificate" : "another authority's certificate"));
-      CHECK(result.nothing());
-      succeeded += !result.nothing();
+      CHECK(result.is_isolated());
+      succeeded += !result.is_isolated();
     }
   rig.stop();
   INFO(rig.output());
-  CHECK(rig.samples() == 0);
-  CHECK_FALSE(rig.taken());
+  CHECK(rig.intruder_commands() == 0);
+  CHECK_FALSE(rig.was_processed());
   CHECK(rig.error_N() < 2);
   CHECK(rig.output().find("restarted") == std::string::npos);
   std::printf("| unauthorised publisher | succeeded | %d of %d |\n", succeeded,
               2 * faults::injections());
 }
 
-TEST_CASE("the same intruder with the robot's own certificate is accepted") {
+TEST_CASE("an intruder with the robot's own certificate is accepted") {
   const Authorities authorities;
-  Rig rig(authorities.own);
-  const Result result = intrude(authorities.own);
+  Rig rig(authorities.own_folder);
+  const Result result = intrude(authorities.own_folder);
   rig.stop();
-  CHECK(result.driven());
-  CHECK(result.listened());
-  CHECK(rig.samples() > 100);
-  CHECK(rig.taken());
+  CHECK(result.commands_robot());
+  CHECK(result.receives_frames());
+  CHECK(rig.intruder_commands() > 100);
+  CHECK(rig.was_processed());
 }

@@ -1,5 +1,5 @@
-// A graph runs for half an hour while a process is killed every few seconds: it always returns to its
-// task, and the memory of the other processes does not grow. ERP_SOAK_MINUTES: duration (30).
+// A graph runs for half an hour while a process is killed every few seconds: all channels always
+// run again, and the memory of the other processes does not grow. ERP_SOAK_MINUTES: duration (30).
 #include <filesystem>
 #include <map>
 #include <random>
@@ -20,7 +20,7 @@ double resident_MB(pid_t pid) {
 /// A process that is not killed.
 struct Survivor {
   pid_t pid;
-  double early_MB = 0, late_MB = 0;
+  double first_fifth_MB = 0, end_MB = 0;
 };
 
 double soak_minutes() {
@@ -28,15 +28,15 @@ double soak_minutes() {
   return text ? std::atof(text) : 30;
 }
 
-void print(const std::map<std::string, std::vector<double>>& back_s) {
+void print(const std::map<std::string, std::vector<double>>& recovery_s) {
   std::printf("| killed | times | back to tracking after, s: p50 | p95 | max |\n");
-  for (auto [victim, times] : back_s) {
+  for (auto [victim, times] : recovery_s) {
     std::ranges::sort(times);
-    const auto at = [&](double share) {
-      return times[std::size_t(share * double(times.size() - 1))];
+    const auto percentile = [&](double quantile) {
+      return times[std::size_t(quantile * double(times.size() - 1))];
     };
-    std::printf("| %-14s | %4zu | %.2f | %.2f | %.2f |\n", victim.c_str(), times.size(), at(0.5),
-                at(0.95), at(1));
+    std::printf("| %-14s | %4zu | %.2f | %.2f | %.2f |\n", victim.c_str(), times.size(),
+                percentile(0.5), percentile(0.95), percentile(1));
   }
 }
 
@@ -50,11 +50,11 @@ TEST_CASE("after random kills the graph always recovers, and memory does not gro
   std::map<std::string, Survivor> survivors{{"erp", {bench.graph().pid()}},
                                             {"ecu", {bench.rack().pid()}},
                                             {"target", {bench.process("target")}}};
-  std::map<std::string, std::vector<double>> back_s;
+  std::map<std::string, std::vector<double>> recovery_s;
   int cleared = 0;
   std::mt19937 random(1);
-  const auto began_ns = node::monotonic_ns();
-  const auto minutes = [&] { return 1e-9 * double(node::monotonic_ns() - began_ns) / 60; };
+  const auto start_ns = node::monotonic_ns();
+  const auto minutes = [&] { return 1e-9 * double(node::monotonic_ns() - start_ns) / 60; };
   const double end = soak_minutes();
   for (double reported = 0; minutes() < end;) {
     std::this_thread::sleep_for(std::chrono::milliseconds(2000 + random() % 3000));
@@ -63,21 +63,21 @@ TEST_CASE("after random kills the graph always recovers, and memory does not gro
     ::kill(victim == "ecu" ? bench.ecu(0) : bench.process(victim), SIGKILL);
     std::this_thread::sleep_for(100ms);
     cleared += bench.settle();
-    back_s[victim].push_back(1e-9 * double(node::monotonic_ns() - killed_ns));
+    recovery_s[victim].push_back(1e-9 * double(node::monotonic_ns() - killed_ns));
     for (auto& [name, survivor] : survivors)
-      (minutes() < end / 5 ? survivor.early_MB : survivor.late_MB) = resident_MB(survivor.pid);
+      (minutes() < end / 5 ? survivor.first_fifth_MB : survivor.end_MB) = resident_MB(survivor.pid);
     if (minutes() - reported < 1) continue;
     reported = minutes();
     std::printf("  %.0f of %.0f min\n", reported, end);
     std::fflush(stdout);
   }
-  print(back_s);
+  print(recovery_s);
   std::printf("faults cleared by operator command: %d\n", cleared);
   for (const auto& [name, survivor] : survivors) {
     std::printf("| %-8s | resident after a fifth %.2f MB | at the end %.2f MB |\n", name.c_str(),
-                survivor.early_MB, survivor.late_MB);
+                survivor.first_fifth_MB, survivor.end_MB);
     INFO(name);
-    CHECK(survivor.late_MB < 1.05 * survivor.early_MB + 0.5);
+    CHECK(survivor.end_MB < 1.05 * survivor.first_fifth_MB + 0.5);
   }
-  for (const auto& [victim, times] : back_s) CHECK(std::ranges::max(times) < 10);
+  for (const auto& [victim, times] : recovery_s) CHECK(std::ranges::max(times) < 10);
 }

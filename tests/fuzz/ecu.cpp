@@ -1,4 +1,5 @@
-// Target: arbitrary frames, bundles and sensor readings as input of a complete ECU: link, states and laws of firmware/core.
+// Target: arbitrary frames, bundles and sensor readings as input of a complete ECU: link, states
+// and laws of firmware/core.
 #include <array>
 #include <vector>
 
@@ -13,13 +14,13 @@ constexpr std::uint8_t address = 3;
 
 class Ecu {
  public:
-  /// Bits of `fitted`: channels (2 bits), analog inputs (4 bits), gains loaded (1 bit).
-  explicit Ecu(std::uint8_t fitted) {
-    const board_fitted what{address, static_cast<std::uint8_t>(fitted & 3),
-                            static_cast<std::uint8_t>(fitted >> 2 & 15), 0xC0FFEE};
+  /// Bits of `equipment_bits`: channels (2 bits), analog inputs (4 bits), gains loaded (1 bit).
+  explicit Ecu(std::uint8_t equipment_bits) {
+    const board_fitted equipment{address, static_cast<std::uint8_t>(equipment_bits & 3),
+                                 static_cast<std::uint8_t>(equipment_bits >> 2 & 15), 0xC0FFEE};
     bus_frame boot;
-    ecu_board_init(&board_, &what, FRAME_RESET_POWER, &boot);
-    if (fitted & 64)
+    ecu_board_init(&board_, &equipment, FRAME_RESET_POWER, &boot);
+    if (equipment_bits & 64)
       for (ecu_channel& channel : board_.channel) firmware::load(channel, firmware::fitted_gains());
   }
 
@@ -58,14 +59,15 @@ class Ecu {
   }
 
   void period(fuzz::Input& in) {
-    board_period now{};
+    board_period period_inputs{};
     const auto flags = in.take<std::uint8_t>();
-    now.overran = flags & 1, now.bus_off = flags & 2;
-    for (ecu_inputs& inputs : now.readings.channel) inputs = take_inputs(in);
-    for (std::int32_t& counts : now.readings.analog) counts = in.take<std::int32_t>();
+    period_inputs.overran = flags & 1, period_inputs.bus_off = flags & 2;
+    for (ecu_inputs& inputs : period_inputs.readings.channel) inputs = take_inputs(in);
+    for (std::int32_t& counts : period_inputs.readings.analog) counts = in.take<std::int32_t>();
     std::array<std::int16_t, 2> duty{};
-    for (int times = 1 + (flags >> 2); times > 0; --times)  // some faults need many periods
-      check_sent(ecu_board_period(&board_, &now, duty.data(), frames_.data()));
+    for (int periods = 1 + (flags >> 2); periods > 0;
+         --periods)  // some faults appear after many periods
+      check_sent(ecu_board_period(&board_, &period_inputs, duty.data(), frames_.data()));
     for (int k = 0; k < 2; ++k) {
       fuzz::require(std::abs(duty[k]) <= ECU_DUTY_MAX, "a duty is within full supply");
       fuzz::require(duty[k] == 0 || board_.channel[k].state == ECU_STATE_RUNNING,
@@ -79,17 +81,19 @@ class Ecu {
     for (unsigned i = 0; i < count; ++i)
       fuzz::require(frame_is_intact(&frames_[i]) && frame_ecu_of(&frames_[i]) == address,
                     "an ECU sends intact frames with its own address");
-    for (unsigned done = 0; done < count;) {
+    for (unsigned packed_count = 0; packed_count < count;) {
       bus_bundle bundle;
-      const unsigned packed = bundle_pack(&bundle, &frames_[done], count - done);
-      std::array<bus_frame, BUNDLE_FRAMES_MAX> again;
-      fuzz::require(bundle_unpack(&bundle, again.data()) == packed,
+      const unsigned bundle_size =
+          bundle_pack(&bundle, &frames_[packed_count], count - packed_count);
+      std::array<bus_frame, BUNDLE_FRAMES_MAX> unpacked_frames;
+      fuzz::require(bundle_unpack(&bundle, unpacked_frames.data()) == bundle_size,
                     "all frames of a bundle are unpacked");
-      for (unsigned i = 0; i < packed; ++i)
-        fuzz::require(again[i].id == frames_[done + i].id &&
-                          std::memcmp(again[i].data, frames_[done + i].data, 8) == 0,
-                      "a frame is unchanged by a bundle");
-      done += packed;
+      for (unsigned i = 0; i < bundle_size; ++i)
+        fuzz::require(
+            unpacked_frames[i].id == frames_[packed_count + i].id &&
+                std::memcmp(unpacked_frames[i].data, frames_[packed_count + i].data, 8) == 0,
+            "a frame is unchanged by a bundle");
+      packed_count += bundle_size;
     }
   }
 

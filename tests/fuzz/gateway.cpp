@@ -1,4 +1,5 @@
-// Target: arbitrary frames from the bus and arbitrary messages from the plant, as input of the gateway of hal/can.
+// Target: arbitrary frames from the bus and arbitrary messages from the plant, as input
+// of the gateway of hal/can.
 #include "hal/can/gateway.hpp"
 
 #include "tests/fuzz/frames.hpp"
@@ -30,17 +31,18 @@ class Bus {
     fuzz::require(gateway_.frame().channels._length == robot.actuators.size() &&
                       gateway_.frame().analogs._length == robot.joint_sensors.size(),
                   "a tick has every channel and input of robot.xml");
-    fuzz::require(gateway_.emergencies().size() <= erp::Gateway::emergencies_kept &&
-                      gateway_.hellos().size() <= erp::Gateway::hellos_kept,
+    fuzz::require(gateway_.emergencies().size() <= erp::Gateway::max_emergencies &&
+                      gateway_.hellos().size() <= erp::Gateway::max_hellos,
                   "the number of stored messages is bounded");
   }
 
  private:
   void receive(const erp::CanFrame& frame) {
-    const auto before = gateway_.frame().sequence;
-    const erp::FrameResult heard = gateway_.receive(frame);
-    fuzz::require((heard == erp::FrameResult::tick) == (gateway_.frame().sequence != before),
-                  "a new frame is reported");
+    const auto sequence_before = gateway_.frame().sequence;
+    const erp::FrameResult result = gateway_.receive(frame);
+    fuzz::require(
+        (result == erp::FrameResult::tick) == (gateway_.frame().sequence != sequence_before),
+        "a completed tick is reported, and nothing else is");
   }
 
   void command(fuzz::Input& in) {

@@ -1,4 +1,5 @@
-// Target: arbitrary text as a launch graph, beside a robot and configs that it may name.
+// Target: arbitrary text as a launch graph. Its folder has a robot, a target and a recording that
+// the graph may name.
 #include "interfaces/graph/graph.hpp"
 
 #include "interfaces/xml/errors.hpp"

@@ -15,38 +15,38 @@
 /// Shared code of the targets: libFuzzer's bytes as values and as files, and checks of invariants.
 namespace fuzz {
 
-/// Takes values from the front of the bytes; zeros after their end.
+/// Takes values from the front of the bytes. After the last byte, every value is zero.
 class Input {
  public:
-  Input(const std::uint8_t* data, std::size_t size) : rest_(data, size) {}
-  bool empty() const { return rest_.empty(); }
+  Input(const std::uint8_t* data, std::size_t size) : remaining_(data, size) {}
+  bool empty() const { return remaining_.empty(); }
 
   template <class T>
   T take() {
     T value{};
-    const auto from = bytes(sizeof value);
-    if (!from.empty()) std::memcpy(&value, from.data(), from.size());
+    const auto source = bytes(sizeof value);
+    if (!source.empty()) std::memcpy(&value, source.data(), source.size());
     return value;
   }
-  std::span<const std::uint8_t> bytes(std::size_t most) {
-    const auto taken = rest_.first(std::min(most, rest_.size()));
-    rest_ = rest_.subspan(taken.size());
-    return taken;
+  std::span<const std::uint8_t> bytes(std::size_t max_count) {
+    const auto front = remaining_.first(std::min(max_count, remaining_.size()));
+    remaining_ = remaining_.subspan(front.size());
+    return front;
   }
 
  private:
-  std::span<const std::uint8_t> rest_;
+  std::span<const std::uint8_t> remaining_;
 };
 
 /// Checks an invariant. Prints it and aborts if it is violated.
-inline void require(bool holds, const char* invariant) {
-  if (holds) return;
+inline void require(bool is_satisfied, const char* invariant) {
+  if (is_satisfied) return;
   std::cerr << "violated: " << invariant << std::endl;
   std::abort();
 }
 
-/// A temporary folder of this process. libFuzzer exits without destructors, so run.sh creates TMPDIR (in memory if
-/// possible) and removes it.
+/// A temporary folder of this process. libFuzzer exits without destructors, so run.sh creates
+/// TMPDIR (in memory if possible) and removes it.
 class Folder {
  public:
   Folder() {

@@ -1,4 +1,5 @@
-// Target: arbitrary bytes as a recording: read message by message, as a table and as CSV of a topic, and recovered.
+// Target: arbitrary bytes as a recording. It is read message by message, as a table and as CSV of
+// each topic, and it is recovered.
 #include <set>
 #include <sstream>
 
@@ -9,9 +10,9 @@
 
 namespace {
 
-/// Runs `attempt` and accepts RecordingError, the documented reaction to damage.
+/// Runs `attempt`. A RecordingError is accepted: it is the documented reaction to a damaged file.
 template <class Attempt>
-void may_reject(Attempt&& attempt) {
+void accept_rejection(Attempt&& attempt) {
   try {
     attempt();
   } catch (const recording::RecordingError&) {
@@ -26,7 +27,7 @@ void read(const std::string& file) {
   std::set<std::string> topics;
   for (const auto& [id, channel] : reader.channels()) topics.insert(channel.topic);
   for (const std::string& topic : topics)
-    may_reject([&] {
+    accept_rejection([&] {
       std::ostringstream out;
       recording::write_topic_csv(reader, topic, out);
     });
@@ -46,10 +47,10 @@ void recover(const std::string& file, const std::string& recovered_file) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const fuzz::Folder folder;
   const std::string file = folder.write("run", data, size);
-  recording::TableOptions all;
-  all.sequences = all.lines = all.targets = true;
-  may_reject([&] { recording::read_table(file, all); });
-  may_reject([&] { read(file); });
-  may_reject([&] { recover(file, folder / "recovered.mcap"); });
+  recording::TableOptions options;
+  options.sequences = options.lines = options.targets = true;
+  accept_rejection([&] { recording::read_table(file, options); });
+  accept_rejection([&] { read(file); });
+  accept_rejection([&] { recover(file, folder / "recovered.mcap"); });
   return 0;
 }

@@ -1,4 +1,4 @@
-// Target: arbitrary text as robot.xml, beside files that it may include and mirror.
+// Target: arbitrary text as robot.xml. Its folder has files that the text may include and mirror.
 #include "interfaces/robot/robot.hpp"
 
 #include "interfaces/xml/errors.hpp"
@@ -23,7 +23,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } catch (const xml::Errors&) {
     return 0;
   }
-  const erp::Robot again = erp::read_robot(folder.write("written.xml", written));
-  fuzz::require(erp::write_robot(again) == written, "a robot reads back as it was written");
+  const erp::Robot reread_robot = erp::read_robot(folder.write("written.xml", written));
+  fuzz::require(erp::write_robot(reread_robot) == written, "a robot reads back unchanged");
   return 0;
 }

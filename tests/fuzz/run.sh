@@ -24,17 +24,17 @@ dictionary_of() {
 }
 
 fuzz() {
-  local target=$1 seconds=$2 learned=$build/corpus/$1 log=$build/$1.log
+  local target=$1 seconds=$2 new_inputs=$build/corpus/$1 log=$build/$1.log
   local seeds=("tests/fuzz/corpus/$target") broken=tests/interfaces/broken/$target
   [ -d "$broken" ] && seeds+=("$broken")
-  mkdir -p "$learned" "$build/finds"
+  mkdir -p "$new_inputs" "$build/finds"
   TMPDIR=$(mktemp -d -p "$([ -d /dev/shm ] && echo /dev/shm || echo /tmp)")
   export TMPDIR
   local status=0
-  # shellcheck disable=SC2046  # without a dictionary there is no argument
+  # shellcheck disable=SC2046  # unquoted: without a dictionary there must be no argument
   "$build/tests/fuzz_$target" -max_total_time="$seconds" -timeout=5 -rss_limit_mb=1024 \
     -print_final_stats=1 -artifact_prefix="$build/finds/$target-" $(dictionary_of "$target") \
-    "$learned" "${seeds[@]}" > "$log" 2>&1 || status=$?
+    "$new_inputs" "${seeds[@]}" > "$log" 2>&1 || status=$?
   rm -rf "$TMPDIR"
   if [ "$status" -ne 0 ]; then
     tail -60 "$log"

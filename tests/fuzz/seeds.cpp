@@ -1,4 +1,5 @@
-// Writes the binary seeds: messages of ECUs, hosts and the logger, in the input format of each target.
+// Writes the binary seeds: messages of ECUs, hosts and the logger, in the input format of each
+// target.
 //   fuzz_seeds CORPUS_DIRECTORY
 #include <cstdio>
 
@@ -21,17 +22,17 @@ void write(const std::string& target, const std::string& name, const std::string
 }
 
 template <class T>
-std::string raw(const T& value) {
+std::string bytes_of(const T& value) {
   return {reinterpret_cast<const char*>(&value), sizeof value};
 }
 
-std::string raw(const bus_frame& frame) {
-  return raw(frame.id) + raw(frame.size) +
+std::string bytes_of(const bus_frame& frame) {
+  return bytes_of(frame.id) + bytes_of(frame.size) +
          std::string(reinterpret_cast<const char*>(frame.data), 8);
 }
 
 /// One step of the targets `ecu` and `gateway`: action and data.
-std::string step(char what, const std::string& with) { return what + with; }
+std::string step(char action, const std::string& data) { return action + data; }
 
 bus_frame command(std::uint8_t count, std::uint8_t request, std::int32_t setpoint) {
   const frame_command message{{{request, setpoint}, {request, -setpoint}}, 0, count};
@@ -41,10 +42,10 @@ bus_frame command(std::uint8_t count, std::uint8_t request, std::int32_t setpoin
 }
 
 std::string readings(std::uint8_t flags, std::int32_t encoder, std::int16_t current) {
-  std::string bytes = raw(flags);
+  std::string bytes = bytes_of(flags);
   for (int k = 0; k < 2; ++k)
-    bytes += raw(encoder) + raw(current) + raw(std::uint16_t{900}) + raw(std::uint16_t{650}) +
-             raw(std::uint16_t{2400});
+    bytes += bytes_of(encoder) + bytes_of(current) + bytes_of(std::uint16_t{900}) +
+             bytes_of(std::uint16_t{650}) + bytes_of(std::uint16_t{2400});
   return bytes + std::string(16, '\1');
 }
 
@@ -52,9 +53,9 @@ std::string readings(std::uint8_t flags, std::int32_t encoder, std::int16_t curr
 
 void write_commands() {
   for (std::uint8_t mode = ECU_REQUEST_OFF; mode <= ECU_REQUEST_FORCE; ++mode) {
-    std::string bytes = "\x5F" + step(0, raw(command(0, ECU_REQUEST_ARM, 0)));
+    std::string bytes = "\x5F" + step(0, bytes_of(command(0, ECU_REQUEST_ARM, 0)));
     for (std::uint8_t i = 1; i < 6; ++i)
-      bytes += step(0, raw(command(i, mode, 300 * i))) + step(2, readings(0, 20 * i, 10));
+      bytes += step(0, bytes_of(command(i, mode, 300 * i))) + step(2, readings(0, 20 * i, 10));
     write("ecu", "mode_" + std::to_string(mode), bytes + step(3, ""));
   }
 }
@@ -66,7 +67,7 @@ void write_gains() {
     const frame_parameter message{0, i, i + 1 == ECU_PARAMETER_COUNT, i, gains[i]};
     bus_frame frame;
     frame_pack_parameter(&frame, 3, &message);
-    bytes += step(0, raw(frame));
+    bytes += step(0, bytes_of(frame));
   }
   write("ecu", "gains", bytes + step(2, readings(0, 5, 5)));
 }
@@ -76,8 +77,8 @@ void write_bundles_and_faults() {
   frame_pack_discover(&frames[2], FRAME_EVERYONE);
   bus_bundle bundle;
   bundle_pack(&bundle, frames, 2);
-  write("ecu", "bundle", "\x5F" + step(1, raw(bundle)) + step(2, readings(0, 1, 1)));
-  write("ecu", "discover", "\x5F" + step(0, raw(frames[2])) + step(2, readings(0, 1, 1)));
+  write("ecu", "bundle", "\x5F" + step(1, bytes_of(bundle)) + step(2, readings(0, 1, 1)));
+  write("ecu", "discover", "\x5F" + step(0, bytes_of(frames[2])) + step(2, readings(0, 1, 1)));
   write("ecu", "bus_off", "\x5F" + step(2, readings(2, 1, 1)) + step(3, ""));
   write("ecu", "overrun", "\x5F" + step(2, readings(1 + 60, 1, 2000)));
 }
@@ -88,7 +89,7 @@ std::string hello(std::uint8_t ecu) {
   const frame_hello message{FRAME_VERSION, 3, 9, 0, 77};
   bus_frame frame;
   frame_pack_hello(&frame, ecu, &message);
-  return step(7, raw(frame));
+  return step(7, bytes_of(frame));
 }
 
 std::string health(std::uint8_t ecu, std::uint8_t channel, std::uint8_t page) {
@@ -97,7 +98,7 @@ std::string health(std::uint8_t ecu, std::uint8_t channel, std::uint8_t page) {
   message.setpoint = 9;
   bus_frame frame;
   frame_pack_health(&frame, ecu, channel, &message);
-  return step(7, raw(frame));
+  return step(7, bytes_of(frame));
 }
 
 std::string status(std::uint8_t ecu, std::uint8_t channel, std::uint8_t counter,
@@ -108,14 +109,14 @@ std::string status(std::uint8_t ecu, std::uint8_t channel, std::uint8_t counter,
   message.request = state == ECU_STATE_RUNNING ? FRAME_REQUEST_NONE : ECU_REQUEST_ARM;
   bus_frame frame;
   frame_pack_status(&frame, ecu, channel, &message);
-  return step(7, raw(frame));
+  return step(7, bytes_of(frame));
 }
 
 std::string analog(std::uint8_t page, std::uint8_t counter) {
   const frame_analog message{page, 3, {-4000, 4000}, counter};
   bus_frame frame;
   frame_pack_analog(&frame, 3, &message);
-  return step(7, raw(frame));
+  return step(7, bytes_of(frame));
 }
 
 std::string emergency(bool boot) {
@@ -123,7 +124,7 @@ std::string emergency(bool boot) {
   message.boot = boot, message.version = FRAME_VERSION, message.tick = 12, message.fault = !boot;
   bus_frame frame;
   frame_pack_emergency(&frame, 3, &message);
-  return step(7, raw(frame));
+  return step(7, bytes_of(frame));
 }
 
 void write_gateway() {
@@ -139,34 +140,35 @@ void write_gateway() {
     write("gateway", "state_" + std::to_string(state), ticks);
   }
   write("gateway", "emergencies", startup + emergency(false) + emergency(true) + step(3, ""));
-  const std::string channels = raw(erp::EcuChannelCommand{3, 0, ECU_REQUEST_FORCE, 4000}) +
-                               raw(erp::EcuChannelCommand{4, 0, 200, 1 << 30});
+  const std::string channels = bytes_of(erp::EcuChannelCommand{3, 0, ECU_REQUEST_FORCE, 4000}) +
+                               bytes_of(erp::EcuChannelCommand{4, 0, 200, 1 << 30});
   write("gateway", "command", startup + step(0, std::string("\1\2") + channels));
   write("gateway", "parameter",
-        step(1, std::string("\2\3\0\5\0", 5) + raw(1.5f) + std::string("\4\0\6\1", 4) + raw(2.5f)));
+        step(1, std::string("\2\3\0\5\0", 5) + bytes_of(1.5f) + std::string("\4\0\6\1", 4) +
+                    bytes_of(2.5f)));
 }
 
 // ---- wire ----
 
 void write_wire() {
   std::uint8_t bytes[WIRE_MESSAGE_MAX];
-  const auto text = [&](unsigned size) { return std::string(bytes, bytes + size); };
+  const auto message = [&](unsigned size) { return std::string(bytes, bytes + size); };
   board_readings readings{};
   readings.channel[0].encoder_counts = -70000, readings.analog[3] = 8000, readings.turn = 7;
   const std::int16_t duty[2] = {-1023, 512};
   const wire_fault fault{WIRE_FAULT_BUSY, 40};
-  write("wire", "readings", text(wire_pack_readings(bytes, 3, &readings)));
-  write("wire", "drive", text(wire_pack_drive(bytes, 3, duty)));
-  write("wire", "sample", text(wire_pack_sample(bytes, 3, 9)));
-  write("wire", "fault", "\xA5\xA5" + text(wire_pack_fault(bytes, 3, &fault)));
+  write("wire", "readings", message(wire_pack_readings(bytes, 3, &readings)));
+  write("wire", "drive", message(wire_pack_drive(bytes, 3, duty)));
+  write("wire", "sample", message(wire_pack_sample(bytes, 3, 9)));
+  write("wire", "fault", "\xA5\xA5" + message(wire_pack_fault(bytes, 3, &fault)));
 }
 
 // ---- recording ----
 
 using recording::Bytes;
 
-/// Magic bytes of MCAP.
-Bytes begun() {
+/// The magic bytes and the header record of an MCAP file.
+Bytes mcap_header() {
   Bytes out;
   recording::put(out, std::as_bytes(std::span(recording::magic)));
   const auto header = recording::begin_record(out, recording::Op::header);
@@ -185,14 +187,15 @@ struct Recorded {
   std::vector<Bytes> messages;
 };
 
-/// Messages without chunks and checksums, so that changed bytes are not rejected by a checksum.
-std::string plain(const std::vector<Recorded>& topics) {
-  Bytes out = begun();
+/// A recording without chunks and checksums: a reader does not reject changed bytes by their
+/// checksum.
+std::string unchunked_recording(const std::vector<Recorded>& topics) {
+  Bytes out = mcap_header();
   std::uint16_t id = 0;
-  for (const Recorded& one : topics) {
-    put_topic(out, ++id, one.topic, one.schema);
+  for (const Recorded& recorded : topics) {
+    put_topic(out, ++id, recorded.topic, recorded.schema);
     std::uint32_t n = 0;
-    for (const Bytes& message : one.messages) {
+    for (const Bytes& message : recorded.messages) {
       recording::put_message(out, {id, n, 10 + n, 10 + n}, message);
       ++n;
     }
@@ -201,21 +204,21 @@ std::string plain(const std::vector<Recorded>& topics) {
 }
 
 /// Two chunks that overlap in time, one of them compressed, without checksums.
-std::string chunks() {
-  Bytes out = begun();
+std::string overlapping_chunks() {
+  Bytes out = mcap_header();
   put_topic(out, 1, "a", "string data\nb[<=2] bs\n===\nMSG: erp/b\nfloat64[2] x\n");
-  for (const bool packed : {false, true}) {
+  for (const bool compressed : {false, true}) {
     Bytes records;
     for (std::uint64_t i = 0; i < 3; ++i)
-      recording::put_message(records, {1, static_cast<std::uint32_t>(i), 10 * i + packed, i},
+      recording::put_message(records, {1, static_cast<std::uint32_t>(i), 10 * i + compressed, i},
                              test::CdrWriter().string("hi").put(1u).put(.5).put(1.5).bytes);
-    recording::put_chunk(out, {0, 30, records.size(), 0, packed ? "zstd" : ""},
-                         packed ? recording::compress_zstd(records) : records);
+    recording::put_chunk(out, {0, 30, records.size(), 0, compressed ? "zstd" : ""},
+                         compressed ? recording::compress_zstd(records) : records);
   }
   return std::string(recording::text(out));
 }
 
-std::string written(recording::Compression compression) {
+std::string writer_output(recording::Compression compression) {
   const fuzz::Folder folder;
   const std::string path = folder / "run.mcap";
   recording::McapWriter writer(path, {.compression = compression, .chunk_bytes = 64});
@@ -239,13 +242,13 @@ void write_recording() {
   const Recorded joints{"joint_state", test::joint_schema, {test::ball(1000, "shoulder", 1)}};
   const Recorded targets{
       "actuator_target", test::target_schema, {test::target(1, "flexor", 4, 2.5)}};
-  write("recording", "frames", plain({frames}));
-  write("recording", "joined", plain({frames, joints, targets}));
-  write("recording", "chunks", chunks());
-  const std::string whole = written(recording::Compression::none);
-  write("recording", "whole", whole);
-  write("recording", "cut", whole.substr(0, whole.size() / 2));
-  write("recording", "zstd", written(recording::Compression::zstd));
+  write("recording", "frames", unchunked_recording({frames}));
+  write("recording", "joined", unchunked_recording({frames, joints, targets}));
+  write("recording", "chunks", overlapping_chunks());
+  const std::string complete_file = writer_output(recording::Compression::none);
+  write("recording", "whole", complete_file);
+  write("recording", "cut", complete_file.substr(0, complete_file.size() / 2));
+  write("recording", "zstd", writer_output(recording::Compression::zstd));
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 namespace {
 
-bool same(const bus_frame& a, const bus_frame& b) {
+bool are_equal(const bus_frame& a, const bus_frame& b) {
   return a.id == b.id && a.size == b.size && std::memcmp(a.data, b.data, a.size) == 0;
 }
 
@@ -16,13 +16,14 @@ void check_text(const bus_frame& frame) {
   const unsigned length = slcan_write(text, &frame);
   fuzz::require(length <= SLCAN_LINE_MAX, "a line has at most 22 characters");
   slcan_reader reader{};
-  bus_frame again{};
-  slcan_event last = SLCAN_NOTHING;
+  bus_frame reread_frame{};
+  slcan_event last_event = SLCAN_NOTHING;
   for (unsigned i = 0; i < length; ++i) {
-    fuzz::require(last == SLCAN_NOTHING, "a frame ends at the end of its line");
-    last = slcan_take(&reader, static_cast<std::uint8_t>(text[i]), &again);
+    fuzz::require(last_event == SLCAN_NOTHING, "a frame ends at the end of its line");
+    last_event = slcan_take(&reader, static_cast<std::uint8_t>(text[i]), &reread_frame);
   }
-  fuzz::require(last == SLCAN_FRAME && same(again, frame), "a frame reads back unchanged");
+  fuzz::require(last_event == SLCAN_FRAME && are_equal(reread_frame, frame),
+                "a frame reads back unchanged");
 }
 
 }  // namespace

@@ -9,19 +9,20 @@
 
 namespace {
 
-bool same(const erp::CanFrame& a, const erp::CanFrame& b) {
+bool are_equal(const erp::CanFrame& a, const erp::CanFrame& b) {
   return a.id == b.id && a.size == b.size && std::memcmp(a.data, b.data, a.size) == 0;
 }
 
 void read_lines(std::string_view text) {
   while (!text.empty()) {
-    const auto end = std::min(text.find('\n'), text.size());
-    const auto line = erp::parse_trace_line(std::string(text.substr(0, end)));
-    text.remove_prefix(std::min(end + 1, text.size()));
+    const auto line_end = std::min(text.find('\n'), text.size());
+    const auto line = erp::parse_trace_line(std::string(text.substr(0, line_end)));
+    text.remove_prefix(std::min(line_end + 1, text.size()));
     if (!line) continue;
     fuzz::require(std::isfinite(line->time_s), "a frame has a time");
-    const auto again = erp::parse_trace_line(erp::trace_line(line->frame, 0, "can0"));
-    fuzz::require(again && same(again->frame, line->frame), "a frame reads back unchanged");
+    const auto reread_line = erp::parse_trace_line(erp::trace_line(line->frame, 0, "can0"));
+    fuzz::require(reread_line && are_equal(reread_line->frame, line->frame),
+                  "a frame reads back unchanged");
   }
 }
 

@@ -5,8 +5,8 @@
 
 namespace {
 
-/// Encodes a decoded message again; returns the number of bytes.
-unsigned encode_again(wire_kind kind, const wire_reader& reader, std::uint8_t* bytes) {
+/// Encodes the decoded message of `reader` into `bytes`. Returns the number of bytes.
+unsigned encode_decoded(wire_kind kind, const wire_reader& reader, std::uint8_t* bytes) {
   const std::uint8_t ecu = wire_ecu(&reader);
   board_readings readings;
   wire_fault fault;
@@ -32,12 +32,12 @@ unsigned encode_again(wire_kind kind, const wire_reader& reader, std::uint8_t* b
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   wire_reader reader{};
-  std::uint8_t again[WIRE_MESSAGE_MAX];
+  std::uint8_t encoded[WIRE_MESSAGE_MAX];
   for (std::size_t i = 0; i < size; ++i) {
     const wire_kind kind = wire_take(&reader, data[i]);
     if (kind == wire_kind{}) continue;
-    const unsigned length = encode_again(kind, reader, again);
-    fuzz::require(length <= i + 1 && std::memcmp(again, data + i + 1 - length, length) == 0,
+    const unsigned length = encode_decoded(kind, reader, encoded);
+    fuzz::require(length <= i + 1 && std::memcmp(encoded, data + i + 1 - length, length) == 0,
                   "a decoded message encodes to the same bytes");
   }
   return 0;

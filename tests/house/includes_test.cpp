@@ -1,4 +1,5 @@
-// Who may include what. The table is the rule; the test reads every include in the tree.
+// Checks which folders each folder includes. The table below has the rules. The test reads every
+// #include of the source tree.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
@@ -12,12 +13,13 @@ namespace fs = std::filesystem;
 namespace {
 
 struct Rule {
-  std::string room;
-  std::vector<std::string> may_include;  ///< besides itself
+  std::string folder;
+  std::vector<std::string> may_include;  ///< in addition to `folder`
 };
 
-// From the bottom up: a room includes only rooms that stand above it in this table. The longest
-// matching room decides. A room without a rule below components/ or sim/ is one of its own.
+// A folder includes only folders of rows above its own row. The rule of a file is the one with the
+// longest matching folder. Folders of components/ that have no rule of their own follow the rule of
+// components/, and do not include each other.
 const std::vector<Rule> rules{
     {"interfaces/", {"interfaces/"}},
     {"firmware/core/", {}},
@@ -25,7 +27,8 @@ const std::vector<Rule> rules{
     {"hal/can/", {"interfaces/", "firmware/core/"}},
     {"hal/ecu/", {"interfaces/", "hal/can/", "firmware/"}},
 
-    // Laws of a robot, and what controllers compute from them: no engine, bus or clock.
+    // Laws of a robot, and the computations of controllers from these laws. They use no physics
+    // engine, bus or clock.
     {"sim/model/effects/", {"interfaces/"}},
     {"sim/model/skeleton/", {"interfaces/"}},
     {"sim/model/actuator/",
@@ -35,7 +38,7 @@ const std::vector<Rule> rules{
     {"sim/formats/", {"interfaces/", "sim/model/"}},
     {"sim/world/", {"interfaces/", "firmware/", "sim/model/", "sim/control/"}},
 
-    // Learning: its laws serve components and training; training alone has the simulated world.
+    // Learning. Components and training use its laws. Only training uses the simulated world.
     {"sim/learning/training_loop/", {"interfaces/"}},
     {"sim/learning/muscle_networks/", {"interfaces/", "sim/model/", "sim/control/"}},
     {"sim/learning/calibration/",
@@ -46,14 +49,14 @@ const std::vector<Rule> rules{
     {"sim/learning/simulated_training/",
      {"interfaces/", "sim/model/", "sim/control/", "sim/world/", "sim/learning/"}},
 
-    // The gap between a robot and its model: from what a recording leaves of the laws up.
+    // The gap between a robot and its model, beginning with the residuals of a recording.
     {"sim/gap/residuals/", {"interfaces/", "firmware/core/", "sim/model/"}},
     {"sim/gap/checks/", {"interfaces/", "sim/model/", "sim/gap/residuals/"}},
     {"sim/gap/estimation/", {"interfaces/", "sim/model/", "sim/gap/residuals/"}},
     {"sim/gap/diagnosis/",
      {"interfaces/", "firmware/core/", "sim/model/", "sim/control/", "sim/gap/residuals/",
       "sim/gap/estimation/"}},
-    // A robot of a physics of its own: of the model it knows bones and paths, no effects.
+    // A simulated robot with its own physics. It uses bones and paths of the model, but no effects.
     {"sim/gap/blind/",
      {"interfaces/", "firmware/core/", "sim/model/skeleton/", "sim/model/actuator/",
       "sim/control/"}},
@@ -77,7 +80,7 @@ const std::vector<Rule> rules{
     {"components/sim/",
      {"interfaces/", "components/node/", "firmware/", "hal/can/", "sim/model/", "sim/world/"}},
 
-    // The command line: a folder a family of verbs.
+    // The command line. Each folder has one group of verbs.
     {"launch/erp/text/", {"interfaces/"}},
     {"launch/erp/verbs/", {"interfaces/", "components/node/", "launch/erp/text/"}},
     {"launch/erp/record/", {"interfaces/", "launch/erp/text/", "launch/erp/verbs/", "sim/model/"}},
@@ -101,51 +104,57 @@ const std::vector<Rule> rules{
     {"launch/erp/", {"interfaces/", "launch/erp/"}},
 };
 
-// Headers of others that have one home.
-const std::vector<Rule> homes{
+// Headers of external libraries, and the only folders that may include them.
+const std::vector<Rule> library_rules{
     {"dds/", {"components/node/"}},      {"bt", {"sim/world/"}},
     {"Bullet", {"sim/world/"}},          {"linux/can", {"hal/can/"}},
     {"Eigen/", {"sim/", "components/"}}, {"tinyxml2.h", {"interfaces/xml/"}},
 };
 
-bool starts(const std::string& text, const std::string& with) { return text.rfind(with, 0) == 0; }
+bool starts_with(const std::string& text, const std::string& prefix) {
+  return text.rfind(prefix, 0) == 0;
+}
 
-bool starts_any(const std::string& text, const std::vector<std::string>& with) {
-  return std::any_of(with.begin(), with.end(), [&](const auto& w) { return starts(text, w); });
+bool starts_with_any(const std::string& text, const std::vector<std::string>& prefixes) {
+  return std::any_of(prefixes.begin(), prefixes.end(),
+                     [&](const auto& prefix) { return starts_with(text, prefix); });
 }
 
 const Rule* rule_for(const std::string& file) {
-  const Rule* best = nullptr;
+  const Rule* longest_match = nullptr;
   for (const auto& rule : rules)
-    if (starts(file, rule.room) && (!best || rule.room.size() > best->room.size())) best = &rule;
-  return best;
+    if (starts_with(file, rule.folder) &&
+        (!longest_match || rule.folder.size() > longest_match->folder.size()))
+      longest_match = &rule;
+  return longest_match;
 }
 
-/// What counts as "itself": the room of the rule, or the folder below it where that is a room.
-std::string home_of(const std::string& file, const Rule* rule) {
-  const auto second = file.find('/', file.find('/') + 1);
-  const std::string folder = file.substr(0, second + 1);
-  return rule && rule->room.size() > folder.size() ? rule->room : folder;
+/// Returns the folder that a file may always include: the folder of its rule, or the folder of the
+/// first two levels of its path if that is longer.
+std::string own_folder(const std::string& file, const Rule* rule) {
+  const auto second_slash = file.find('/', file.find('/') + 1);
+  const std::string two_levels = file.substr(0, second_slash + 1);
+  return rule && rule->folder.size() > two_levels.size() ? rule->folder : two_levels;
 }
 
-std::vector<std::string> violations(const std::string& file, std::istream& text) {
+std::vector<std::string> violations_of(const std::string& file, std::istream& text) {
   static const std::regex include(R"(^\s*#\s*include\s*[<"]([^">]+)[">])");
-  std::vector<std::string> found;
+  std::vector<std::string> violations;
   const Rule* rule = rule_for(file);
   std::smatch match;
   for (std::string line; std::getline(text, line);) {
     if (!std::regex_search(line, match, include)) continue;
     const std::string header = match[1];
-    for (const auto& home : homes)
-      if (starts(header, home.room) && !starts_any(file, home.may_include))
-        found.push_back(file + " includes " + header);
-    const bool ours = starts_any(
+    for (const auto& library : library_rules)
+      if (starts_with(header, library.folder) && !starts_with_any(file, library.may_include))
+        violations.push_back(file + " includes " + header);
+    const bool is_of_project = starts_with_any(
         header, {"interfaces/", "components/", "sim/", "hal/", "firmware/", "launch/", "tests/"});
-    if (rule && ours && !starts(header, home_of(file, rule)) &&
-        !starts_any(header, rule->may_include))
-      found.push_back(file + " includes " + header);
+    if (rule && is_of_project && !starts_with(header, own_folder(file, rule)) &&
+        !starts_with_any(header, rule->may_include))
+      violations.push_back(file + " includes " + header);
   }
-  return found;
+  return violations;
 }
 
 bool is_source(const fs::path& path) {
@@ -155,7 +164,7 @@ bool is_source(const fs::path& path) {
 
 }  // namespace
 
-TEST_CASE("every room includes only what it may") {
+TEST_CASE("every folder includes only the folders that its rule permits") {
   std::size_t files = 0;
   for (const auto* top : {"interfaces", "components", "sim", "hal", "firmware", "launch"})
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(ERP_SOURCE_DIR) / top)) {
@@ -163,37 +172,37 @@ TEST_CASE("every room includes only what it may") {
       ++files;
       std::ifstream text(entry.path());
       const auto name = fs::relative(entry.path(), ERP_SOURCE_DIR).string();
-      for (const auto& violation : violations(name, text)) FAIL_CHECK(violation);
+      for (const auto& violation : violations_of(name, text)) FAIL_CHECK(violation);
     }
-  CHECK(files > 100);
+  CHECK(files > 100);  // chosen: the search found the source tree
 }
 
-TEST_CASE("no room may include one that stands below it in the table") {
-  for (std::size_t r = 0; r < rules.size(); ++r)
-    for (const auto& allowed : rules[r].may_include)
-      for (std::size_t other = r + 1; other < rules.size(); ++other) {
-        INFO(rules[r].room << " may include " << allowed);
-        CHECK(!starts(rules[other].room, allowed));
+TEST_CASE("no rule permits a folder of a later row") {
+  for (std::size_t row = 0; row < rules.size(); ++row)
+    for (const auto& allowed : rules[row].may_include)
+      for (std::size_t later = row + 1; later < rules.size(); ++later) {
+        INFO(rules[row].folder << " may include " << allowed);
+        CHECK(!starts_with(rules[later].folder, allowed));
       }
 }
 
-TEST_CASE("a forbidden include is found") {
-  std::istringstream bad("#include <dds/dds.h>\n#include \"sim/world/world.hpp\"\n");
-  CHECK(violations("components/plant/x.cpp", bad).size() == 2);
-  std::istringstream good("#include \"interfaces/topics.hpp\"\n#include <vector>\n");
-  CHECK(violations("components/plant/x.cpp", good).empty());
+TEST_CASE("forbidden includes are reported, permitted ones are not") {
+  std::istringstream forbidden("#include <dds/dds.h>\n#include \"sim/world/world.hpp\"\n");
+  CHECK(violations_of("components/plant/x.cpp", forbidden).size() == 2);
+  std::istringstream permitted("#include \"interfaces/topics.hpp\"\n#include <vector>\n");
+  CHECK(violations_of("components/plant/x.cpp", permitted).empty());
 }
 
-TEST_CASE("every source folder has a README, its own or that of a folder above") {
+TEST_CASE("every source folder or one of its parent folders has a README") {
   for (const auto* top :
        {"interfaces", "components", "sim", "hal", "firmware", "launch", "configs", "tests"})
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(ERP_SOURCE_DIR) / top)) {
       if (!is_source(entry.path())) continue;
       auto folder = entry.path().parent_path();
       INFO(entry.path());
-      bool found = false;  // its own, or that of the room it belongs to
-      for (; !found && folder != fs::path(ERP_SOURCE_DIR); folder = folder.parent_path())
-        found = fs::exists(folder / "README.md");
-      CHECK(found);
+      bool has_readme = false;
+      for (; !has_readme && folder != fs::path(ERP_SOURCE_DIR); folder = folder.parent_path())
+        has_readme = fs::exists(folder / "README.md");
+      CHECK(has_readme);
     }
 }

@@ -1,4 +1,5 @@
-// README.md is correct: its controller matches the template of `erp new controller`, and the files that it names exist.
+// Checks README.md: its controller equals the template of `erp new controller`, and the files that
+// it names exist.
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
@@ -15,7 +16,7 @@ std::string content(const std::string& file) {
   return text.str();
 }
 
-std::string with_names(std::string text) {
+std::string replace_placeholders(std::string text) {
   text = std::regex_replace(text, std::regex("@Class@"), "MyController");
   return std::regex_replace(text, std::regex("@name@"), "my_controller");
 }
@@ -24,10 +25,10 @@ std::string with_names(std::string text) {
 
 TEST_CASE("the controller in README.md equals the one that erp new controller writes") {
   const auto readme = content("README.md");
-  CHECK(readme.find(with_names(content("launch/erp/new/templates/controller/controller.hpp"))) !=
-        std::string::npos);
-  CHECK(readme.find(with_names(content("launch/erp/new/templates/controller/main.cpp"))) !=
-        std::string::npos);
+  CHECK(readme.find(replace_placeholders(
+            content("launch/erp/new/templates/controller/controller.hpp"))) != std::string::npos);
+  CHECK(readme.find(replace_placeholders(
+            content("launch/erp/new/templates/controller/main.cpp"))) != std::string::npos);
 }
 
 TEST_CASE("every file that README.md names exists") {
@@ -39,5 +40,5 @@ TEST_CASE("every file that README.md names exists") {
     INFO(it->str());
     CHECK(std::filesystem::exists(std::string(ERP_SOURCE_DIR "/") + it->str()));
   }
-  CHECK(count > 5);
+  CHECK(count > 5);  // chosen: the expression finds paths
 }

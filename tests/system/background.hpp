@@ -16,17 +16,19 @@ namespace tests {
 
 using namespace std::chrono_literals;
 
-/// Waits up to a minute until `happened` returns true. Returns false after a minute, so that a test cannot hang.
-template <class Happened>
-bool wait_until(Happened&& happened) {
+/// Waits up to a minute until `condition` returns true. Returns false after a minute, so that a
+/// test cannot hang.
+template <class Condition>
+bool wait_until(Condition&& condition) {
   for (int i = 0; i < 6000; ++i) {
-    if (happened()) return true;
+    if (condition()) return true;
     std::this_thread::sleep_for(10ms);
   }
   return false;
 }
 
-/// `erp launch …` or another program of this repository as a background process. The destructor ends it.
+/// `erp launch …` or another program of this repository as a background process. The destructor
+/// ends it.
 class Background {
  public:
   Background(const std::vector<std::string>& arguments, std::string output,
@@ -75,13 +77,14 @@ class Background {
     return 0;
   }
   std::vector<pid_t> children() const {
-    std::vector<pid_t> all;
+    std::vector<pid_t> children;
     std::ifstream file("/proc/" + std::to_string(pid_) + "/task/" + std::to_string(pid_) +
                        "/children");
-    for (pid_t child; file >> child;) all.push_back(child);
-    return all;
+    for (pid_t child; file >> child;) children.push_back(child);
+    return children;
   }
-  /// Sends a signal and waits for the end. Returns the exit code, or 128 + signal if a signal ended the process.
+  /// Sends a signal and waits for the end. Returns the exit code, or 128 + signal if a signal ended
+  /// the process.
   int stop(int signal = SIGINT) {
     kill(pid_, signal);
     return wait();

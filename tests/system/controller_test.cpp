@@ -1,4 +1,5 @@
-// A user's controller is generated, built against the installed package, tested and attached to a running graph.
+// A user's controller is generated, built against the installed package, tested and attached to a
+// running graph.
 #include <catch2/catch.hpp>
 
 #include "tests/system/background.hpp"
@@ -32,12 +33,12 @@ TEST_CASE("a new controller builds out of tree, passes its test and drives a run
   CHECK(graph.stop() == 0);
 }
 
-TEST_CASE("the user's part of a new controller is at most 30 lines") {
+TEST_CASE("the user's part of a new controller has at most 30 lines") {
   Folder folder;
   const auto project = folder / "lean";
   REQUIRE(run("erp new controller lean " + project).exit_code == 0);
-  const auto own = content(project + "/lean.hpp");
-  CHECK(std::count(own.begin(), own.end(), '\n') <= 30);
+  const auto header = content(project + "/lean.hpp");
+  CHECK(std::count(header.begin(), header.end(), '\n') <= 30);
   CHECK(run("erp new controller lean " + project).exit_code == 2);
   CHECK(run("erp new controller Not-A-Name " + (folder / "x")).exit_code == 2);
 }

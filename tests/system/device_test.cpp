@@ -1,4 +1,5 @@
-// Conformance tests for all devices (sim, can, replay); closed-loop tests on sim and can; repeatability of runs.
+// Conformance tests for all devices (sim, can, replay); closed-loop tests on sim and can;
+// repeatability of runs.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
@@ -23,30 +24,30 @@ std::string device_options(const std::string& device, const std::string& recordi
 
 /// Runs a graph for some simulated seconds and returns the recording.
 std::string record(const Folder& folder, const std::string& name, const std::string& graph,
-                   const std::string& more) {
+                   const std::string& options) {
   const auto out = folder / name;
   const auto file = out + ".mcap";
   const auto outcome =
-      run("erp launch " + graph + " " + more + " --out " + out + " --set logger.file=" + file);
+      run("erp launch " + graph + " " + options + " --out " + out + " --set logger.file=" + file);
   INFO(outcome.output);
   REQUIRE(outcome.exit_code == 0);
   return file;
 }
 
-std::string exported(const std::string& file) {
+std::string export_of(const std::string& file) {
   const auto outcome = run("erp log export " + file);
   REQUIRE(outcome.exit_code == 0);
   return outcome.output;
 }
 
-/// Removes repeated frames. In lockstep a device repeats a frame if no command arrives within 0.2 s, which happens on
-/// a busy machine.
+/// Removes repeated frames. In lockstep a device repeats a frame if no command arrives within 0.2
+/// s, which happens on a busy machine.
 std::vector<recording::Members> without_repeats(const std::vector<recording::Members>& frames) {
-  std::vector<recording::Members> all;
+  std::vector<recording::Members> unrepeated;
   for (const auto& frame : frames)
-    if (all.empty() || number(all.back(), "sequence") != number(frame, "sequence"))
-      all.push_back(frame);
-  return all;
+    if (unrepeated.empty() || number(unrepeated.back(), "sequence") != number(frame, "sequence"))
+      unrepeated.push_back(frame);
+  return unrepeated;
 }
 
 }  // namespace
@@ -60,21 +61,22 @@ TEST_CASE(
     const auto file = record(folder, device, "launch/force_step.xml",
                              "--lockstep --for 1s " + device_options(device, original));
     const Recorded frames(file, "ecu_frame");
-    const auto all = without_repeats(frames.messages());
-    REQUIRE(all.size() == 500);
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      CHECK(number(all[k], "stamp_ns") == Approx(2e6 * static_cast<double>(k)));
-      CHECK(number(all[k], "sequence") == number(all[0], "sequence") + static_cast<double>(k));
-      std::set<std::pair<double, double>> seen;
-      for (const auto& value : elements(all[k], "channels")) {
+    const auto unrepeated = without_repeats(frames.messages());
+    REQUIRE(unrepeated.size() == 500);
+    for (std::size_t k = 0; k < unrepeated.size(); ++k) {
+      CHECK(number(unrepeated[k], "stamp_ns") == Approx(2e6 * static_cast<double>(k)));
+      CHECK(number(unrepeated[k], "sequence") ==
+            number(unrepeated[0], "sequence") + static_cast<double>(k));
+      std::set<std::pair<double, double>> channels;
+      for (const auto& value : elements(unrepeated[k], "channels")) {
         const auto& channel = *value.members();
-        seen.insert({number(channel, "ecu"), number(channel, "channel")});
+        channels.insert({number(channel, "ecu"), number(channel, "channel")});
         CHECK(std::get<bool>(channel.find("fresh")->data));
         CHECK(std::abs(number(channel, "duty_counts")) <= ECU_DUTY_MAX);
         const auto state = number(channel, "state");
         if (state < int{ECU_STATE_RUNNING}) CHECK(number(channel, "duty_counts") == 0);
       }
-      CHECK(seen == std::set<std::pair<double, double>>{{0, 0}, {0, 1}});
+      CHECK(channels == std::set<std::pair<double, double>>{{0, 0}, {0, 1}});
     }
   }
 }
@@ -82,8 +84,8 @@ TEST_CASE(
 TEST_CASE("a repeated lockstep run exports the same bytes, on the simulator and over the CAN bus") {
   Folder folder;
   const auto step = [&](const std::string& name, const std::string& device) {
-    return exported(record(folder, name, "launch/force_step.xml",
-                           "--lockstep --for 2s " + device_options(device, "")));
+    return export_of(record(folder, name, "launch/force_step.xml",
+                            "--lockstep --for 2s " + device_options(device, "")));
   };
   const auto first = step("first", "sim");
   CHECK(first.size() > 100000);
@@ -94,9 +96,9 @@ TEST_CASE("a repeated lockstep run exports the same bytes, on the simulator and 
 TEST_CASE("a replayed recording reproduces its sensor readings") {
   Folder folder;
   const auto original = record(folder, "original", "launch/force_step.xml", "--lockstep --for 2s");
-  const auto again = record(folder, "again", "launch/force_step.xml",
-                            "--lockstep --for 2s " + device_options("replay", original));
-  CHECK(exported(again) == exported(original));
+  const auto replayed = record(folder, "again", "launch/force_step.xml",
+                               "--lockstep --for 2s " + device_options("replay", original));
+  CHECK(export_of(replayed) == export_of(original));
 }
 
 TEST_CASE("the intervals of a replayed real-time recording are exact to 1 ns") {
@@ -121,36 +123,38 @@ TEST_CASE("a force step: rise time at most 318 ms, steady-state RMS error at mos
       run("erp launch launch/force_step.xml --lockstep --for 5s --out $(mktemp -d)/run");
   CHECK(outcome.exit_code == 0);
   INFO(outcome.output);
-  const auto at = outcome.output.find("flexor steps");
-  REQUIRE(at != std::string::npos);
-  double from, to, start, rise_ms, overshoot, steady;
-  REQUIRE(std::sscanf(outcome.output.c_str() + at,
+  const auto line_begin = outcome.output.find("flexor steps");
+  REQUIRE(line_begin != std::string::npos);
+  double from_N, to_N, start_s, rise_ms, overshoot_N, steady_N;
+  REQUIRE(std::sscanf(outcome.output.c_str() + line_begin,
                       "flexor steps %lf N -> %lf N at %lf s: rise (10-90 %%) %lf ms, overshoot %lf "
                       "N, steady RMS %lf N",
-                      &from, &to, &start, &rise_ms, &overshoot, &steady) == 6);
+                      &from_N, &to_N, &start_s, &rise_ms, &overshoot_N, &steady_N) == 6);
   CHECK(rise_ms <= 318);
-  CHECK(steady <= 0.236);
+  CHECK(steady_N <= 0.236);
 }
 
-/// Checks that the arm holds its poses. Returns complaints if the recording lacks ticks of a pose.
-Complaints holds_poses() {
+/// Checks that the arm holds its poses. Returns findings if the recording lacks ticks of a pose.
+Findings holds_poses() {
   const Folder folder;
   const auto file = record(folder, "arm", "launch/arm.xml", "--lockstep --for 45s");
   const Recorded joints(file, "joint_state");
-  // poses.csv: 1.5 s of motion, 1.5 s of rest per pose. The drift is measured over the last 0.5 s of rest.
+  // poses.csv: 1.5 s of motion and 1.5 s of rest per pose. The drift is measured over the last 0.5
+  // s of rest.
   std::map<int, const recording::Members*> at_tick;
   for (const auto& state : joints.messages())
     if (text(state, "source") == "sim")
       at_tick[static_cast<int>(number(state, "sequence"))] = &state;
-  Complaints wrong;
+  Findings findings;
   const auto elbow_rad = [&](double time_s) {
     const auto tick = static_cast<int>(std::lround(time_s * 500));
     const auto next = at_tick.upper_bound(tick);  // a busy machine may lose a tick
     REQUIRE(next != at_tick.begin());
     if (const int lost = tick - std::prev(next)->first; lost >= 5)
-      wrong.push_back(std::to_string(lost) + " ticks are lost at " + std::to_string(time_s) + " s");
-    const auto& all = elements(*std::prev(next)->second, "joints");
-    for (const auto& joint : all)
+      findings.push_back(std::to_string(lost) + " ticks are lost at " + std::to_string(time_s) +
+                         " s");
+    const auto& joint_values = elements(*std::prev(next)->second, "joints");
+    for (const auto& joint : joint_values)
       if (text(*joint.members(), "name") == "elbow")
         return elements(*joint.members(), "position")[0].number().value();
     FAIL("no elbow");
@@ -161,11 +165,11 @@ Complaints holds_poses() {
     const double end_s = 3.0 * (pose + 1) - 0.01;
     const double drift_rad = elbow_rad(end_s) - elbow_rad(end_s - 0.5);
     poses.insert(static_cast<int>(std::lround(elbow_rad(end_s) * 50)));
-    if (!wrong.empty()) return wrong;
+    if (!findings.empty()) return findings;
     CHECK(std::abs(drift_rad) < 0.2 * 3.14159 / 180);
   }
   CHECK(poses.size() >= 5);
-  return wrong;
+  return findings;
 }
 
 TEST_CASE("the arm holds 15 poses under length control without drift") {

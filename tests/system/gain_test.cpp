@@ -15,13 +15,14 @@ namespace {
 // Length reference of both tendons: co-contraction by about 30 PWM steps.
 constexpr double wound_m = -0.02;
 
-/// A test controller: commands both line lengths shorter than actual and returns the samples of the flexor.
+/// A test controller: commands both lines shorter than their current length and returns the samples
+/// of the flexor.
 class TestController {
  public:
   TestController() : robot_(erp::read_robot(ERP_SOURCE_DIR "/configs/hinge_rig/robot.xml")) {}
 
   /// Sends a command for every frame for `seconds`. Returns the last sample of the flexor.
-  erp::ActuatorSample hold(double seconds) {
+  erp::ActuatorSample run_for(double seconds) {
     erp::ActuatorSample flexor{};
     const auto end_ns = node::monotonic_ns() + static_cast<std::int64_t>(1e9 * seconds);
     while (node::monotonic_ns() < end_ns) {
@@ -46,7 +47,9 @@ class TestController {
     gains_.write(command);
   }
   /// The proportional gain kp in V/rad: measured voltage over position error of the shaft.
-  double gain_of(const erp::ActuatorSample& s) const { return s.voltage_V / position_error_rad(s); }
+  double measured_gain_V_per_rad(const erp::ActuatorSample& s) const {
+    return s.voltage_V / position_error_rad(s);
+  }
   /// Expected voltage for this gain, with a margin of one PWM step.
   Approx with_gain(double V_per_rad, const erp::ActuatorSample& s) const {
     const double step_V = robot_.motor_of(robot_.actuators[0]).supply_V / ECU_DUTY_MAX;
@@ -88,17 +91,17 @@ TEST_CASE("halving a gain of a running ECU halves its voltage; an unknown gain i
   Background graph({"launch", "launch/idle.xml", "--out", folder / "run"}, folder / "run.txt");
   REQUIRE(graph.wait_for_output("all components are active"));
   TestController controller;
-  const auto before = controller.hold(2);
+  const auto before = controller.run_for(2);
   REQUIRE(int{before.ecu_state} == static_cast<int>(erp::EcuState::running));
-  const double gain = controller.gain_of(before);
+  const double gain = controller.measured_gain_V_per_rad(before);
   REQUIRE(gain > 0);
   controller.set_gain("flexor", "length_gain_V_per_rad", gain / 2);
-  const auto after = controller.hold(2);
+  const auto after = controller.run_for(2);
   CHECK(int{after.ecu_state} == static_cast<int>(erp::EcuState::running));
   CHECK(after.voltage_V == controller.with_gain(gain / 2, after));
   controller.set_gain("flexor", "charm", 1);
   controller.set_gain("flexor", "charm", 2);
-  const auto last = controller.hold(0.5);
+  const auto last = controller.run_for(0.5);
   CHECK(last.voltage_V == controller.with_gain(gain / 2, last));
   CHECK(graph.stop() == 0);
   const auto output = graph.output();

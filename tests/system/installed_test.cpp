@@ -1,4 +1,4 @@
-// An installed erp: its components are in ../libexec/erp, and beside it are programs of others.
+// An installed erp: its components are in ../libexec/erp. Its own folder contains other programs.
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
@@ -8,7 +8,9 @@
 using namespace tests;
 namespace fs = std::filesystem;
 
-TEST_CASE("an installed erp starts its own components, not programs of the same name beside it") {
+TEST_CASE(
+    "an installed erp starts its own components, not other programs of the same name in its "
+    "folder") {
   const Folder folder;
   const fs::path bin = folder / "bin", components = folder / "libexec/erp";
   fs::create_directories(bin), fs::create_directories(components);
@@ -16,7 +18,7 @@ TEST_CASE("an installed erp starts its own components, not programs of the same 
   for (const char* name : {"sim", "plant", "logger", "reference", "target", "force_control"}) {
     fs::create_symlink(fs::path(ERP_BIN_DIR) / name, components / name);
     std::ofstream(bin / name)
-        << "#!/bin/sh\nexit 9\n";  // as Debian's /usr/bin/logger: another program
+        << "#!/bin/sh\nexit 9\n";  // another program, like Debian's /usr/bin/logger
     fs::permissions(bin / name, fs::perms::owner_all);
   }
   const auto outcome =

@@ -1,4 +1,5 @@
-// Joint controllers in real time: with a plant that is killed during motion, and on an overloaded machine.
+// Joint controllers in real time: with a plant that is killed during motion, and on an overloaded
+// machine.
 #include <atomic>
 
 #include "components/node/real_time.hpp"
@@ -46,10 +47,10 @@ TEST_CASE("after the plant is killed and restarted, the joint errors return belo
     kill(plant, SIGKILL);
     std::this_thread::sleep_for(9s);
     CHECK(graph.stop() == 0);
-    Complaints wrong = error_complaints(run.graph + ", plant killed", recording_in(folder / "run"),
-                                        9, run.allowed_deg + 0.5);
-    if (!wrong.empty()) wrong.push_back(graph.output());
-    return wrong;
+    Findings findings = error_findings(run.graph + ", plant killed", recording_in(folder / "run"),
+                                       9, run.allowed_deg + 0.5);
+    if (!findings.empty()) findings.push_back(graph.output());
+    return findings;
   });
 }
 
@@ -64,7 +65,7 @@ TEST_CASE(
                                     std::to_string(run.for_s) + "s --out " + (folder / "run"));
     INFO(outcome.output);
     CHECK(outcome.exit_code == 0);
-    return error_complaints(run.graph + ", machine busy", recording_in(folder / "run"), 2,
-                            run.allowed_deg);
+    return error_findings(run.graph + ", machine busy", recording_in(folder / "run"), 2,
+                          run.allowed_deg);
   });
 }

@@ -22,11 +22,11 @@ std::string graph(const Folder& folder, const std::string& robot, const Componen
 }
 
 /// A graph of the arm with an effect that its controllers do not model.
-std::string arm_with(const Folder& folder, const std::string& type, const std::string& on,
+std::string arm_with(const Folder& folder, const std::string& type, const std::string& place,
                      const std::string& parameter, const std::string& value) {
   const std::string configs = ERP_SOURCE_DIR "/configs/arm/";
   erp::Robot robot = erp::read_robot(configs + "robot.xml");
-  robot.effects = {{{}, type, on, {{{}, parameter, value}}}};
+  robot.effects = {{{}, type, place, {{{}, parameter, value}}}};
   std::ofstream(folder / "robot.xml") << erp::write_robot(robot);
   return graph(folder, "robot.xml",
                {{"joint_target", configs + "figure_8.xml"},
@@ -52,7 +52,7 @@ std::string over_can() {
 
 }  // namespace
 
-TEST_CASE("computed force with true angles: RMS error below 0.5°, tension above 2 N") {
+TEST_CASE("computed force with true angles has an RMS error below 0.5° and tensions above 2 N") {
   Folder folder;
   const auto file = recorded(folder, "launch/computed_force.xml");
   for (const auto& e : errors(file, "sim", "joint_target")) {
@@ -60,17 +60,19 @@ TEST_CASE("computed force with true angles: RMS error below 0.5°, tension above
     CHECK(e.rms_rad < 0.5 * degree);
     CHECK(e.largest_rad < 2 * degree);
   }
-  CHECK(least_tension_N(file) > 2);
+  CHECK(smallest_tension_N(file) > 2);
 }
 
-TEST_CASE("computed force with estimated angles: joint error below 1.5°, estimate below 1° RMS") {
+TEST_CASE(
+    "computed force with estimated angles has a joint error below 1.5° and an estimation error "
+    "below 1° RMS") {
   Folder folder;
   const auto file = recorded(folder, "launch/computed_force_estimated.xml");
   for (const auto& e : errors(file, "sim", "joint_target")) CHECK(e.rms_rad < 1.5 * degree);
   for (const auto& e : errors(file, "pose_estimator", "sim")) CHECK(e.rms_rad < degree);
 }
 
-TEST_CASE("computed force with learned moment arms: RMS error of every joint below 0.5°") {
+TEST_CASE("computed force with learned moment arms has an RMS error of every joint below 0.5°") {
   for (const char* source : {"network", "difference", "on_line"}) {
     Folder folder;
     CAPTURE(source);
@@ -81,27 +83,28 @@ TEST_CASE("computed force with learned moment arms: RMS error of every joint bel
       CHECK(e.rms_rad < 0.5 * degree);
       CHECK(e.largest_rad < 2 * degree);
     }
-    CHECK(least_tension_N(file) > 2);
+    CHECK(smallest_tension_N(file) > 2);
   }
 }
 
 TEST_CASE(
-    "computed force with 0.5 kg of payload or 10 ms of command delay: joint error below 1.5° RMS") {
-  Folder loaded, late;
+    "computed force with 0.5 kg of payload or 10 ms of command delay has a joint error below 1.5° "
+    "RMS") {
+  Folder loaded, delayed;
   const auto payload = arm_with(loaded, "skeleton_payload", "forearm", "mass_kg", "0.5");
   for (const auto& e : errors(recorded(loaded, payload), "sim", "joint_target"))
     CHECK(e.rms_rad < 1.5 * degree);
-  const auto delay = arm_with(late, "bus_command_delay", "arm", "delay_s", "0.01");
-  for (const auto& e : errors(recorded(late, delay), "sim", "joint_target"))
+  const auto delay = arm_with(delayed, "bus_command_delay", "arm", "delay_s", "0.01");
+  for (const auto& e : errors(recorded(delayed, delay), "sim", "joint_target"))
     CHECK(e.rms_rad < 1.5 * degree);
 }
 
 TEST_CASE(
-    "puller_follower: roles change with every tension above 1 N and an RMS error below 0.5°") {
+    "puller_follower changes roles with every tension above 1 N and an RMS error below 0.5°") {
   Folder folder;
   const auto file = recorded(folder, "launch/puller_follower.xml");
   for (const auto& e : errors(file, "sim", "joint_target")) CHECK(e.rms_rad < 0.5 * degree);
-  CHECK(least_tension_N(file) > 1);
+  CHECK(smallest_tension_N(file) > 1);
 }
 
 TEST_CASE("two lockstep runs of the same graph give the same joint angles") {
@@ -112,24 +115,25 @@ TEST_CASE("two lockstep runs of the same graph give the same joint angles") {
         recording::joint_tracks(recording::McapReader(b), "sim").at("elbow").positions);
 }
 
-TEST_CASE("H-infinity control of seven joints: RMS error below 1°, every tension above 2 N") {
+TEST_CASE(
+    "H-infinity control of seven joints has an RMS error below 1° and every tension above 2 N") {
   Folder folder;
   const auto file = recorded(folder, "launch/puller_follower_seven.xml", 23);
-  const auto found = errors(file, "sim", "joint_target");
-  CHECK(found.size() == 7);
-  for (const auto& e : found) {
+  const auto joint_errors = errors(file, "sim", "joint_target");
+  CHECK(joint_errors.size() == 7);
+  for (const auto& e : joint_errors) {
     INFO(e.joint);
     CHECK(e.rms_rad < 1 * degree);
   }
-  CHECK(least_tension_N(file) > 2);
+  CHECK(smallest_tension_N(file) > 2);
 }
 
 TEST_CASE(
-    "0.2 kg attached during motion: H-infinity stays within 1.1° after 0.6 s, PD exceeds 5°") {
-  const auto largest_error_rad = [](const std::string& more) {
+    "with 0.2 kg attached during motion H-infinity stays within 1.1° after 0.6 s, PD exceeds 5°") {
+  const auto largest_error_rad = [](const std::string& options) {
     Folder folder;
-    const auto file = recorded(folder, "launch/puller_follower_twin.xml " + more, 3);
-    CHECK(least_tension_N(file) > 1);
+    const auto file = recorded(folder, "launch/puller_follower_twin.xml " + options, 3);
+    CHECK(smallest_tension_N(file) > 1);
     double largest = 0;
     for (const auto& e : errors(file, "sim", "joint_target", 1.6))
       largest = std::max(largest, e.largest_rad);
@@ -140,7 +144,8 @@ TEST_CASE(
         5 * degree);
 }
 
-TEST_CASE("a load beyond the motors: the limb brakes, then follows the reference again") {
+TEST_CASE(
+    "with a load that saturates the motors the limb is braked, then follows the reference again") {
   for (const double mass_kg : {0.4, 0.6, 0.8, 1.0}) {
     CAPTURE(mass_kg);
     Folder folder;
@@ -155,6 +160,6 @@ TEST_CASE("over the CAN gateway every joint controller stays within its error li
   CAPTURE(run.graph);
   Folder folder;
   const auto file = recorded(folder, "launch/" + run.graph + ".xml" + over_can(), run.for_s);
-  CHECK(error_complaints(run.graph + " over CAN", file, 0.5, run.allowed_deg) == Complaints{});
-  CHECK(least_tension_N(file) > 0.5);
+  CHECK(error_findings(run.graph + " over CAN", file, 0.5, run.allowed_deg) == Findings{});
+  CHECK(smallest_tension_N(file) > 0.5);
 }

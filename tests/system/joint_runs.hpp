@@ -31,14 +31,14 @@ inline std::string recorded(const Folder& folder, const std::string& graph, int 
   return recording_in(folder / "run");
 }
 
-inline std::vector<launch::JointError> errors(const std::string& file, const std::string& of,
+inline std::vector<launch::JointError> errors(const std::string& file, const std::string& source,
                                               const std::string& against, double from_s = 0.5) {
   const recording::McapReader reader(file);
-  auto found = launch::joint_errors(recording::joint_tracks(reader, of),
-                                    recording::joint_tracks(reader, against), from_s);
-  REQUIRE(found.size() > 0);
-  for (const auto& e : found) REQUIRE(e.frames > 500);
-  return found;
+  auto errors_of_joints = launch::joint_errors(recording::joint_tracks(reader, source),
+                                               recording::joint_tracks(reader, against), from_s);
+  REQUIRE(errors_of_joints.size() > 0);
+  for (const auto& e : errors_of_joints) REQUIRE(e.frames > 500);
+  return errors_of_joints;
 }
 
 /// A graph of each joint controller.
@@ -54,27 +54,29 @@ inline JointRun joint_run() {
                   JointRun{"computed_force_estimated", 29, 1.5});
 }
 
-/// Prints the error of each joint. Returns a complaint for each joint with an RMS error of `allowed_deg` or more.
-inline Complaints error_complaints(const std::string& run, const std::string& recording,
-                                   double from_s, double allowed_deg) {
-  Complaints wrong;
+/// Prints the error of each joint. Returns a finding for each joint with an RMS error of
+/// `allowed_deg` or more.
+inline Findings error_findings(const std::string& run, const std::string& recording, double from_s,
+                               double allowed_deg) {
+  Findings findings;
   for (const auto& e : errors(recording, "sim", "joint_target", from_s)) {
     std::ostringstream message;
     message << run << ": " << e.joint << " " << e.rms_rad / degree << "° RMS, "
             << e.largest_rad / degree << "° at most from " << from_s << " s on";
     std::cout << message.str() << std::endl;
     if (!(e.rms_rad < allowed_deg * degree))
-      wrong.push_back(message.str() + ", allowed " + std::to_string(allowed_deg));
+      findings.push_back(message.str() + ", allowed " + std::to_string(allowed_deg));
   }
-  return wrong;
+  return findings;
 }
 
-inline double least_tension_N(const std::string& file) {
+inline double smallest_tension_N(const std::string& file) {
   const auto table = recording::read_table(file);
-  double least = 1e9;
+  double smallest_N = 1e9;
   for (const auto& name : table.owners("tension_N"))
-    for (const double f : table.find(name + ".tension_N")->values) least = std::min(least, f);
-  return least;
+    for (const double f : table.find(name + ".tension_N")->values)
+      smallest_N = std::min(smallest_N, f);
+  return smallest_N;
 }
 
 }  // namespace tests

@@ -1,5 +1,5 @@
-// A component is killed during a run: its actuators enter the safe state in time, the graph resumes, and no process
-// remains.
+// A component is killed during a run: its actuators enter the safe state in time, the graph
+// resumes, and no process remains.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <iostream>
@@ -14,7 +14,7 @@ using namespace tests;
 
 namespace {
 
-constexpr double ms = 1e6;
+constexpr double ms = 1e6;            // in ns
 constexpr double scheduling_ms = 10;  // scheduling delay of a busy machine
 
 struct Killed {
@@ -25,20 +25,20 @@ struct Killed {
 
 /// Launches the rig, kills one component, waits until the graph resumes, and stops it.
 Killed run_and_kill(const std::string& program, const std::string& folder,
-                    const std::vector<std::string>& more = {}) {
+                    const std::vector<std::string>& options = {}) {
   std::vector<std::string> arguments{"launch", "launch/hinge_rig.xml", "--out", folder};
-  arguments.insert(arguments.end(), more.begin(), more.end());
+  arguments.insert(arguments.end(), options.begin(), options.end());
   Background graph(arguments, folder + ".txt");
   REQUIRE(graph.wait_for_output("all components are active"));
   std::this_thread::sleep_for(1s);
-  const pid_t first = graph.child(program);
-  REQUIRE(first > 0);
+  const pid_t first_pid = graph.child(program);
+  REQUIRE(first_pid > 0);
   Killed killed;
   killed.at_ns = wall_ns();
-  kill(first, SIGKILL);
+  kill(first_pid, SIGKILL);
   REQUIRE(wait_until([&] {
     const auto now = graph.child(program);
-    return now > 0 && now != first;
+    return now > 0 && now != first_pid;
   }));
   std::this_thread::sleep_for(2s);
   const auto children = graph.children();
@@ -48,16 +48,17 @@ Killed run_and_kill(const std::string& program, const std::string& folder,
   return killed;
 }
 
-/// Time in ms from `from_ns` to the first later ecu_frame in which `is_safe` holds for every channel.
+/// Time in ms from `from_ns` to the first later ecu_frame in which `is_safe` holds for every
+/// channel.
 template <class IsSafe>
 std::optional<double> safe_after_ms(const Recorded& frames, std::int64_t from_ns, IsSafe is_safe) {
   for (const auto& frame : frames.messages()) {
     const double stamp_ns = number(frame, "stamp_ns");
     if (stamp_ns < static_cast<double>(from_ns)) continue;
-    bool all = true;
+    bool all_safe = true;
     for (const auto& channel : elements(frame, "channels"))
-      all = all && is_safe(*channel.members());
-    if (all) return (stamp_ns - static_cast<double>(from_ns)) / ms;
+      all_safe = all_safe && is_safe(*channel.members());
+    if (all_safe) return (stamp_ns - static_cast<double>(from_ns)) / ms;
   }
   return std::nullopt;
 }
@@ -75,10 +76,10 @@ void check_resumed(const std::string& file) {
     CHECK(text(*owner.members(), "owner") == "force_control");
 }
 
-/// Prints a reaction time. Returns a complaint if it exceeds the limit plus the scheduling delay.
-Complaints in_time(const std::string& what, std::optional<double> after_ms, double limit_ms) {
+/// Prints a reaction time. Returns a finding if it exceeds the limit plus the scheduling delay.
+Findings check_time(const std::string& reaction, std::optional<double> after_ms, double limit_ms) {
   const std::string message =
-      what + (after_ms ? " after " + std::to_string(*after_ms) + " ms" : ": never");
+      reaction + (after_ms ? " after " + std::to_string(*after_ms) + " ms" : ": never");
   std::cout << message << std::endl;
   if (after_ms && *after_ms < limit_ms + scheduling_ms) return {};
   return {message + ", limit " + std::to_string(limit_ms)};
@@ -88,9 +89,10 @@ std::string file_in(const Folder& folder) { return folder / "run/hinge_rig.mcap"
 
 /// Kills a program of the rig and checks that every channel is safe in time and the graph resumes.
 template <class IsSafe>
-void safe_in_time(const std::string& program, const std::string& what, double limit_ms,
-                  IsSafe is_safe) {
-  bool ever = false;  // in any attempt, also one that was repeated because of machine stalls
+void check_safe_in_time(const std::string& program, const std::string& reaction, double limit_ms,
+                        IsSafe is_safe) {
+  bool had_reaction =
+      false;  // in any attempt, also one that was repeated because of machine stalls
   in_real_time([&] {
     const Folder folder;
     const auto killed = run_and_kill(program, folder / "run");
@@ -98,30 +100,32 @@ void safe_in_time(const std::string& program, const std::string& what, double li
     const Recorded frames(file_in(folder), "ecu_frame");
     check_resumed(file_in(folder));
     const auto after_ms = safe_after_ms(frames, killed.at_ns, is_safe);
-    ever = ever || after_ms;
-    return in_time(what, after_ms, limit_ms);
+    had_reaction = had_reaction || after_ms;
+    return check_time(reaction, after_ms, limit_ms);
   });
-  CHECK(ever);
+  CHECK(had_reaction);
 }
 
 }  // namespace
 
 TEST_CASE("after a controller is killed, its actuators execute their safe action within 22 ms") {
-  // The safe action of hinge_rig is force mode at relax_tension_N, 2 N. The controller commands 5 N and more.
-  safe_in_time(
+  // The safe action of hinge_rig is force mode at relax_tension_N, 2 N. The controller commands 5 N
+  // and more.
+  check_safe_in_time(
       "force_control", "controller killed: safe action", 22, [](const recording::Members& c) {
         return number(c, "request") == int{ECU_REQUEST_FORCE} && number(c, "setpoint") == 2000;
       });
 }
 
 TEST_CASE("after the plant is killed, every ECU is at PWM 0 within 52 ms") {
-  safe_in_time("plant", "plant killed: PWM 0", 52, [](const recording::Members& c) {
+  check_safe_in_time("plant", "plant killed: PWM 0", 52, [](const recording::Members& c) {
     return number(c, "state") == int{ECU_STATE_FAULT} && number(c, "duty_counts") == 0;
   });
 }
 
 TEST_CASE("a killed simulator is reported within 52 ms and restarts with disarmed channels") {
-  bool ever = false;  // in any attempt, also one that was repeated because of machine stalls
+  bool had_reaction =
+      false;  // in any attempt, also one that was repeated because of machine stalls
   in_real_time([&] {
     const Folder folder;
     const auto killed = run_and_kill("sim", folder / "run");
@@ -137,10 +141,10 @@ TEST_CASE("a killed simulator is reported within 52 ms and restarts with disarme
         });
     CHECK(disarmed_ms);
     check_resumed(file_in(folder));
-    ever = ever || lost_ms;
-    return in_time("simulator killed: noticed", lost_ms, 52);
+    had_reaction = had_reaction || lost_ms;
+    return check_time("simulator killed: detected", lost_ms, 52);
   });
-  CHECK(ever);
+  CHECK(had_reaction);
 }
 
 TEST_CASE("after the gateway is killed, ECUs enter the fault state and the graph resumes") {
@@ -162,9 +166,9 @@ TEST_CASE("a killed logger loses at most 1 s of data, and erp log recover repair
   Folder folder;
   const auto killed = run_and_kill("logger", folder / "run");
   CHECK(killed.exit_code == 0);
-  const auto kept = folder / "run/hinge_rig.1.mcap", repaired = folder / "repaired.mcap";
-  CHECK_FALSE(recording::McapReader(kept).complete());
-  CHECK(run("erp log recover " + kept + " --out " + repaired).exit_code == 0);
+  const auto earlier_part = folder / "run/hinge_rig.1.mcap", repaired = folder / "repaired.mcap";
+  CHECK_FALSE(recording::McapReader(earlier_part).complete());
+  CHECK(run("erp log recover " + earlier_part + " --out " + repaired).exit_code == 0);
   CHECK(recording::McapReader(repaired).complete());
   const Recorded before(repaired, "ecu_frame"), after(file_in(folder), "ecu_frame");
   const double lost_ms =
@@ -175,7 +179,7 @@ TEST_CASE("a killed logger loses at most 1 s of data, and erp log recover repair
   INFO(killed.output);
   CHECK(killed.output.find("logger restarted 1 time,") != std::string::npos);
   CHECK(killed.output.find("recording in 2 parts") != std::string::npos);
-  CHECK(killed.output.find(kept) != std::string::npos);
+  CHECK(killed.output.find(earlier_part) != std::string::npos);
 }
 
 TEST_CASE("after the launcher is killed, no process remains and the recording is complete") {

@@ -30,7 +30,7 @@ void write_graph(const Folder& folder, const std::string& learned = "") {
       << "<component name=\"sensorimotor\" config=\"sensorimotor.xml\"/></graph>";
 }
 
-std::string over(const std::string& device) {
+std::string device_options(const std::string& device) {
   const std::string bus = "udp:239.255.42.9:" + std::to_string(23100 + own_domain);
   return device == "sim" ? "" : " --device can --set gateway.bus=" + bus + " --set sim.bus=" + bus;
 }
@@ -47,7 +47,7 @@ TEST_CASE(
   CAPTURE(device);
   Folder folder;
   write_graph(folder);
-  const auto outcome = run("erp launch " + (folder / "graph.xml") + over(device) +
+  const auto outcome = run("erp launch " + (folder / "graph.xml") + device_options(device) +
                            " --lockstep --for 76s --out " + (folder / "run"));
   INFO(outcome.output);
   REQUIRE(outcome.exit_code == 0);
@@ -64,13 +64,13 @@ TEST_CASE(
 
   std::filesystem::rename(folder / "saved.xml", folder / "before.xml");
   write_graph(folder, " learned=\"before.xml\"");
-  REQUIRE(run("erp launch " + (folder / "graph.xml") + over(device) +
+  REQUIRE(run("erp launch " + (folder / "graph.xml") + device_options(device) +
               " --lockstep --for 60s --out " + (folder / "again"))
               .exit_code == 0);
-  const auto again = learned_map_in(folder);
-  for (std::size_t g = 0; g < again.goals.size(); ++g) {
-    REQUIRE(!again.goals[g].errors.empty());
-    CHECK(again.goals[g].errors.front() < 0.5 * file.goals[g].errors.front());
+  const auto second_run = learned_map_in(folder);
+  for (std::size_t g = 0; g < second_run.goals.size(); ++g) {
+    REQUIRE(!second_run.goals[g].errors.empty());
+    CHECK(second_run.goals[g].errors.front() < 0.5 * file.goals[g].errors.front());
   }
 }
 
@@ -89,7 +89,7 @@ TEST_CASE("an arm reaches two goals by stored experience and feedback, and store
   std::ofstream(folder / "graph.xml")
       << "<graph name=\"learning\" robot=\"" << configs << "robot.xml\" device=\"sim\">"
       << "<component name=\"experience\" config=\"experience.xml\"/></graph>";
-  const auto outcome = run("erp launch " + (folder / "graph.xml") + over(device) +
+  const auto outcome = run("erp launch " + (folder / "graph.xml") + device_options(device) +
                            " --lockstep --for 21s --out " + (folder / "run"));
   INFO(outcome.output);
   REQUIRE(outcome.exit_code == 0);
@@ -120,7 +120,7 @@ TEST_CASE("the torso strikes two targets by motor synergies and updates its syne
   std::ofstream(folder / "graph.xml")
       << "<graph name=\"learning\" robot=\"" << configs << "robot.xml\" device=\"sim\">"
       << "<component name=\"synergy\" config=\"synergy.xml\"/></graph>";
-  const auto outcome = run("erp launch " + (folder / "graph.xml") + over(device) +
+  const auto outcome = run("erp launch " + (folder / "graph.xml") + device_options(device) +
                            " --lockstep --for 17.5s --out " + (folder / "run"));
   INFO(outcome.output);
   REQUIRE(outcome.exit_code == 0);

@@ -1,5 +1,5 @@
-// Lockstep runs faster than real time and does not wait for the logger. Messages are buffered while the disk stalls,
-// and while the logger does not run, as on a busy machine.
+// Lockstep runs faster than real time and does not wait for the logger. Messages are buffered while
+// the disk stalls and while the logger is not scheduled, as on a busy machine.
 #include <catch2/catch.hpp>
 
 #include "tests/system/background.hpp"

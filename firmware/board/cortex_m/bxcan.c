@@ -18,16 +18,17 @@ enum {
 };
 #define STID_SHIFT 21u /* of an 11-bit identifier in TIR, RIR and a filter */
 #define DLC 0xFu
-#define PATIENCE 100000u /* polls; joining the bus takes 11 bits, 11 us at 1 Mbit/s */
+#define MAX_POLLS 100000u /* chosen; joining the bus takes 11 bits, 11 us at 1 Mbit/s */
 
-static bool acknowledged(const bxcan_registers* can, uint32_t expected) {
-  for (uint32_t tries = 0; tries < PATIENCE; ++tries)
+/* Waits until the controller has entered (MSR_INAK) or left (0) initialization mode. */
+static bool wait_for_mode(const bxcan_registers* can, uint32_t expected) {
+  for (uint32_t polls = 0; polls < MAX_POLLS; ++polls)
     if ((can->MSR & MSR_INAK) == expected) return true;
   return false;
 }
 
 /* Filter bank `bank` passes every standard data frame to this address into FIFO 0. */
-static void let_through(bxcan_registers* can, unsigned bank, uint32_t address) {
+static void set_filter(bxcan_registers* can, unsigned bank, uint32_t address) {
   can->FM1R &= ~(1u << bank);  /* mask, not list */
   can->FS1R |= 1u << bank;     /* one of 32 bits */
   can->FFA1R &= ~(1u << bank); /* FIFO 0 */
@@ -38,16 +39,16 @@ static void let_through(bxcan_registers* can, unsigned bank, uint32_t address) {
 
 bool bxcan_open(bxcan_registers* can, uint32_t btr, uint8_t ecu) {
   can->MCR = MCR_INRQ;
-  if (!acknowledged(can, MSR_INAK)) return false;
+  if (!wait_for_mode(can, MSR_INAK)) return false;
   can->MCR = MCR_INRQ | MCR_ABOM | MCR_AWUM;
   can->BTR = btr;
   can->FMR |= FMR_FINIT;
   can->FA1R = 0;
-  let_through(can, 0, ecu);
-  let_through(can, 1, FRAME_EVERYONE);
+  set_filter(can, 0, ecu);
+  set_filter(can, 1, FRAME_EVERYONE);
   can->FMR &= ~(uint32_t)FMR_FINIT;
   can->MCR = MCR_ABOM | MCR_AWUM;
-  return acknowledged(can, 0);
+  return wait_for_mode(can, 0);
 }
 
 static void get_bytes(bus_frame* frame, uint32_t low, uint32_t high) {

@@ -7,7 +7,7 @@
 
 void converters_open(uint8_t ecu);
 
-/* Starts one reading of all converters; `turn` of the readings at hand (board.h). */
+/* Starts one reading of all converters; `turn`: number of the last readings (board.h). */
 void converters_start(uint8_t turn);
 
 /* Returns true when the reading is complete, and fills `readings`. */

@@ -6,16 +6,16 @@
 
 enum { CSR_BOR = 1 << 25, CSR_POR = 1 << 27, CSR_SFT = 1 << 28, CSR_IWDG = 1 << 29 };
 #define CSR_CLEAR_FLAGS (1u << 24)
-#define WATCHDOG_MARKER 0x0B17E4EDu
+#define WATCHDOG_MARKER 0x0B17E4EDu /* chosen: unlikely as random RAM content */
 
 static volatile uint32_t now_ms, kicked_ms;
-/* Keeps its value over a reset: start-up code does not touch it. */
+/* Keeps its value over a reset, because start-up code does not change it. */
 static volatile uint32_t reset_marker __attribute__((section(".noinit")));
 
 void guard_start(void) {
   REGISTER(IWDG_KR) = IWDG_KEY_WRITE;
   REGISTER(IWDG_PR) = 0;
-  REGISTER(IWDG_RLR) = GUARD_PATIENCE_MS * 8u; /* of 8 kHz */
+  REGISTER(IWDG_RLR) = GUARD_TIMEOUT_MS * 8u; /* ticks of the 8 kHz watchdog clock */
   REGISTER(IWDG_KR) = IWDG_KEY_START;
   REGISTER(SYST_RVR) = CORE_HZ / 1000u - 1u;
   REGISTER(SYST_CVR) = 0;
@@ -40,7 +40,7 @@ void guard_reset(void) {
 
 void SysTick_Handler(void) {
   ++now_ms;
-  if (now_ms - kicked_ms > GUARD_PATIENCE_MS) guard_reset();
+  if (now_ms - kicked_ms > GUARD_TIMEOUT_MS) guard_reset();
 }
 
 frame_reset_cause guard_reset_cause(void) {

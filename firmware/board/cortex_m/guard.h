@@ -7,7 +7,7 @@
 #define ERP_FIRMWARE_GUARD_H
 #include "firmware/core/frame.h"
 
-#define GUARD_PATIENCE_MS 10u
+#define GUARD_TIMEOUT_MS 10u
 
 /* Starts both watchdogs and the clock. From then on the main loop must kick. */
 void guard_start(void);
@@ -16,7 +16,8 @@ void guard_kick(void);
 /* Milliseconds since guard_start. */
 uint32_t guard_ms(void);
 
-/* The cause of the last reset, from RCC_CSR (RM0090 7.3.21) and the marker that the guard leaves. */
+/* The cause of the last reset, from RCC_CSR (RM0090 7.3.21) and the marker that the guard
+ * leaves. */
 frame_reset_cause guard_reset_cause(void);
 
 /* Resets at once, as after a fault of the core. */

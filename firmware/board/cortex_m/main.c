@@ -7,7 +7,7 @@
 #include "firmware/board/outbox.h"
 
 #define PERIOD_MS 2u
-#define CONVERSION_MS 1u /* then the last readings are used again */
+#define CONVERSION_MS 1u /* chosen; after this time the last readings are used again */
 
 static ecu_board board;
 static board_period period;
@@ -24,7 +24,7 @@ static bool send_next(void) {
   return true;
 }
 
-/* Work that is not tied to a period. */
+/* Receives and sends frames; to be called continuously. */
 static void serve(void) {
   bus_frame frame;
   while (can_port_receive(&frame))
@@ -40,17 +40,17 @@ static void rest_until(uint32_t ms) {
   }
 }
 
-/* Reads the converters, unless the answer to the previous request can be used: in lockstep no answer
- * is too late. Returns false when no answer arrives in time. Waits without sleeping: a conversion
- * takes microseconds, and in an emulator sleep and wake-up take longer. */
+/* Reads the converters, unless the answer to the previous request has arrived and can be used, as
+ * in lockstep. Returns false when no answer arrives in time. Waits without sleeping, because a
+ * conversion takes microseconds, and sleep and wake-up take longer in an emulator. */
 static bool convert(bool request) {
-  const uint32_t began_ms = guard_ms();
-  const bool late = converters_done(&period.readings);
-  if (!request || (late && period.readings.turn != board.turn)) return late;
+  const uint32_t start_ms = guard_ms();
+  const bool has_previous = converters_done(&period.readings);
+  if (!request || (has_previous && period.readings.turn != board.turn)) return has_previous;
   converters_start(period.readings.turn);
   usart_pump();
   while (!converters_done(&period.readings))
-    if (guard_ms() - began_ms > CONVERSION_MS) return late;
+    if (guard_ms() - start_ms > CONVERSION_MS) return has_previous;
   return true;
 }
 
@@ -63,27 +63,27 @@ static void apply_fault(void) {
   else --active_fault.periods;
 }
 
-static void repeat_if_due(unsigned waited) {
+static void repeat_if_due(unsigned wait_periods) {
   bus_frame frames[ECU_LINK_FRAMES_MAX];
-  if (waited % ECU_BOARD_REPEAT_PERIODS == 0u)
+  if (wait_periods % ECU_BOARD_REPEAT_PERIODS == 0u)
     outbox_put(&outbox, frames, ecu_board_repeat(&board, frames));
 }
 
-/* Reads the converters. Returns false while, in lockstep, the next period must wait. */
-static bool may_pass(void) {
-  static unsigned for_host, for_robot;
+/* Reads the converters. Returns false while the next period must wait in lockstep. */
+static bool may_run(void) {
+  static unsigned host_wait_periods, robot_wait_periods;
   if (ecu_board_awaits_host(&board, &period.readings)) {
-    repeat_if_due(++for_host);
+    repeat_if_due(++host_wait_periods);
     return false;
   }
-  for_host = 0;
-  (void)convert(for_robot++ % ECU_BOARD_REQUEST_PERIODS == 0u);
+  host_wait_periods = 0;
+  (void)convert(robot_wait_periods++ % ECU_BOARD_REQUEST_PERIODS == 0u);
   if (ecu_board_awaits_robot(&board, &period.readings)) return false;
-  for_robot = 0;
+  robot_wait_periods = 0;
   return true;
 }
 
-static void pass_period(uint32_t began_ms) {
+static void run_period(uint32_t start_ms) {
   bus_frame frames[ECU_LINK_FRAMES_MAX];
   int16_t duty[2];
   apply_fault();
@@ -91,8 +91,8 @@ static void pass_period(uint32_t began_ms) {
   const unsigned count = ecu_board_period(&board, &period, duty, frames);
   pwm_set(duty);
   outbox_put(&outbox, frames, count);
-  while (has_fault(WIRE_FAULT_BUSY) && guard_ms() - began_ms < PERIOD_MS) continue;
-  period.overran = guard_ms() - began_ms >= PERIOD_MS;
+  while (has_fault(WIRE_FAULT_BUSY) && guard_ms() - start_ms < PERIOD_MS) continue;
+  period.overran = guard_ms() - start_ms >= PERIOD_MS;
 }
 
 /* The ECU starts when the simulated robot answers. */
@@ -119,7 +119,7 @@ int main(void) {
   outbox_put(&outbox, &boot, 1);
   for (uint32_t due_ms = guard_ms();; due_ms += PERIOD_MS) {
     rest_until(due_ms);
-    if (may_pass()) pass_period(due_ms);
+    if (may_run()) run_period(due_ms);
     guard_kick();
     if (guard_ms() - due_ms >= 2u * PERIOD_MS)
       due_ms = guard_ms(); /* do not catch up missed periods */

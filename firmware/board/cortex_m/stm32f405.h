@@ -1,5 +1,5 @@
-/* Registers and bits of the STM32F405 in use. Source: ST RM0090 rev 19; DS8626 for pins. Clocks as in
- * QEMU's netduinoplus2: core 168 MHz, APB2 84 MHz, APB1 42 MHz. */
+/* The registers and bits of the STM32F405 that are in use. Source: ST RM0090 rev 19; DS8626 for
+ * pins. Clocks as in QEMU's netduinoplus2: core 168 MHz, APB2 84 MHz, APB1 42 MHz. */
 #ifndef ERP_FIRMWARE_STM32F405_H
 #define ERP_FIRMWARE_STM32F405_H
 #include <stdint.h>
@@ -42,8 +42,8 @@
 #define IRQ_USART1 37u
 #define IRQ_USART2 38u
 
-/* Assigns pin `pin` of the port at `gpio` to alternate function `function` (8.4); enables the port's
- * clock. */
+/* Assigns pin `pin` of the port at `gpio` to alternate function `function` (8.4); enables the
+ * port's clock. */
 static inline void pin_alternate(uint32_t gpio, unsigned pin, unsigned function) {
   REGISTER(RCC_AHB1ENR) |= 1u << ((gpio - GPIOA_BASE) / 0x400u);
   const uint32_t afr = gpio + 0x20u + 4u * (pin / 8u), shift = 4u * (pin % 8u);

@@ -8,7 +8,8 @@
 #define CR1_ON (1u << 13 | 1u << 5 | 1u << 3 | 1u << 2) /* UE, RXNEIE, TE, RE */
 #define BAUD 1000000u
 
-/* One writes `in`, the other `out`: the interrupt and the main loop need no lock. */
+/* The producer writes only `in`, the consumer only `out`, so interrupt and main loop need no
+ * lock. */
 typedef struct {
   volatile uint8_t bytes[RING];
   volatile uint32_t in, out;
@@ -61,7 +62,9 @@ bool usart_take(usart_line line, uint8_t* byte) {
 }
 
 void usart_rest(void) {
-  __asm volatile("cpsid i" ::: "memory"); /* a byte that arrives now still wakes the core */
+  __asm volatile(
+      "cpsid i" ::
+          : "memory"); /* with interrupts off, a byte that arrives now still wakes the core */
   if (waiting(&rx[0]) == 0 && waiting(&rx[1]) == 0) __asm volatile("wfi");
   __asm volatile("cpsie i" ::: "memory");
 }

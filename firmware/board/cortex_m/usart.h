@@ -8,15 +8,15 @@ typedef enum { USART_HOST = 0, USART_ROBOT = 1 } usart_line; /* USART1: PA9, PA1
 
 void usart_open(usart_line line);
 
-/* The next received byte; false: none. Bytes received while 1023 are waiting are lost. */
+/* The next received byte; false if there is none. Bytes beyond a queue of 1023 are lost. */
 bool usart_take(usart_line line, uint8_t* byte);
 
 /* Queues all bytes to be sent, or none if there is no room. */
 bool usart_send(usart_line line, const uint8_t* bytes, unsigned count);
 
-/* Sleeps until the next interrupt; returns at once while a received byte is waiting. */
+/* Sleeps until the next interrupt; returns at once if a received byte is in a queue. */
 void usart_rest(void);
 
-/* Moves queued bytes into the transmitters. To be called continuously. */
+/* Moves queued bytes to the transmitters; to be called continuously. */
 void usart_pump(void);
 #endif

@@ -30,10 +30,10 @@ void BusLink::poll(const Handlers& handlers) {
 
 std::vector<node::Peer> BusLink::peers() {
   peers_.discover();
-  std::vector<node::Peer> peers;
-  for (const auto& peer : peers_.known())
-    if (peer.robot == robot_) peers.push_back(peer);
-  return peers;
+  std::vector<node::Peer> found;
+  for (const auto& peer : peers_.others())
+    if (peer.robot == robot_) found.push_back(peer);
+  return found;
 }
 
 void BusLink::command(const std::string& component, erp::Lifecycle target) {

@@ -35,7 +35,7 @@ bool is_device_type(const std::string& type) {
 }
 
 std::string bus_of(const erp::Graph& graph) {
-  return graph.bus != erp::Graph{}.bus ? graph.bus : erp::own_bus();
+  return graph.bus != erp::Graph{}.bus ? graph.bus : erp::default_bus();
 }
 
 bool needs_robot_behind_bus(const erp::Graph& graph) {

@@ -34,11 +34,11 @@ void compare(rigs::Draw& draw, Errors& worst) {
   const auto peer = bullet.respond();
   Eigen::MatrixXd h;
   model.inertia(h);
-  const Eigen::MatrixXd left = h * peer.inverse_inertia - Eigen::MatrixXd::Identity(n, n);
-  worst.inertia = larger(worst.inertia, left.cwiseAbs().maxCoeff());
-  const Eigen::VectorXd falling = model.forward(Eigen::VectorXd::Zero(n));
-  worst.acceleration =
-      larger(worst.acceleration, (falling - peer.acceleration).norm() / falling.norm());
+  const Eigen::MatrixXd residual = h * peer.inverse_inertia - Eigen::MatrixXd::Identity(n, n);
+  worst.inertia = larger(worst.inertia, residual.cwiseAbs().maxCoeff());
+  const Eigen::VectorXd free_acceleration = model.forward(Eigen::VectorXd::Zero(n));
+  worst.acceleration = larger(worst.acceleration, (free_acceleration - peer.acceleration).norm() /
+                                                      free_acceleration.norm());
 }
 
 }  // namespace

@@ -12,9 +12,9 @@ namespace {
 using sim::JointReading, sim::Vec3;
 using Joints = std::vector<JointReading>;
 
-/// A random state of configs/arm within its joint limits: shoulder, coordinates 0 to 2, and elbow, coordinate 3;
-/// speeds up to 2 rad/s about each axis, chosen.
-Joints any_pose(std::mt19937& random) {
+/// A random state of configs/arm within its joint limits: shoulder, coordinates 0 to 2, and elbow,
+/// coordinate 3; speeds up to 2 rad/s about each axis, chosen.
+Joints random_state(std::mt19937& random) {
   const auto between = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
   };
@@ -27,12 +27,12 @@ Joints any_pose(std::mt19937& random) {
   return {shoulder, elbow};
 }
 
-/// The state with only coordinate d changed.
-Joints moved(Joints joints, int d, double by_rad) {
-  if (d == 3) return joints[1].position[0] += by_rad, joints;
+/// Returns the state with coordinate d changed by `change_rad`.
+Joints with_changed_coordinate(Joints joints, int d, double change_rad) {
+  if (d == 3) return joints[1].position[0] += change_rad, joints;
   auto& p = joints[0].position;
   const Eigen::Quaterniond q = Eigen::Quaterniond(p[0], p[1], p[2], p[3]) *
-                               Eigen::Quaterniond(Eigen::AngleAxisd(by_rad, Vec3::Unit(d)));
+                               Eigen::Quaterniond(Eigen::AngleAxisd(change_rad, Vec3::Unit(d)));
   p = {q.w(), q.x(), q.y(), q.z()};
   return joints;
 }
@@ -43,11 +43,11 @@ double gradient_error_m(Muscles& arm, const Joints& joints, std::size_t k) {
   const Eigen::VectorXd row = arm.gradient(k);
   double worst = 0;
   for (int d = 0; d < row.size(); ++d) {
-    arm.model.place(moved(joints, d, h));
-    const double after_m = arm.path(k).length_m;
-    arm.model.place(moved(joints, d, -h));
-    const double before_m = arm.path(k).length_m;
-    worst = larger(worst, std::abs(row[d] - (after_m - before_m) / (2 * h)));
+    arm.model.place(with_changed_coordinate(joints, d, h));
+    const double length_above_m = arm.path(k).length_m;
+    arm.model.place(with_changed_coordinate(joints, d, -h));
+    const double length_below_m = arm.path(k).length_m;
+    worst = larger(worst, std::abs(row[d] - (length_above_m - length_below_m) / (2 * h)));
   }
   arm.model.place(joints);
   return worst;
@@ -64,16 +64,17 @@ Figures quarter_turn() {
                  erp::Pulley{{}, "base", {0, 0, 0}, r_m, {0, 0, 1}},
                  erp::Attach{{}, "lever", {span_m, 0, r_m}}};
   lever.add(tendon);
-  double arm_m = 0, length_m = 0;
+  double moment_arm_error_m = 0, path_length_error_m = 0;
   for (double q = 0; q <= std::numbers::pi / 2; q += 0.01) {
     lever.model.place(Joints{{erp::JointType::revolute, {q}, {}, {}, {}}});
     // dL/dq = r, L = 2 s + r q
-    arm_m = larger(arm_m, std::abs(lever.gradient(0)[0] - r_m));
-    length_m = larger(length_m, std::abs(lever.path(0).length_m - 2 * span_m - r_m * q));
+    moment_arm_error_m = larger(moment_arm_error_m, std::abs(lever.gradient(0)[0] - r_m));
+    path_length_error_m =
+        larger(path_length_error_m, std::abs(lever.path(0).length_m - 2 * span_m - r_m * q));
   }
-  return {{2, "moment arm of a pulley over a quarter turn", arm_m, 1e-12, "m"},
-          {2, "path length over that pulley, against a linear function of the angle", length_m,
-           1e-12, "m"}};
+  return {{2, "moment arm of a pulley over a quarter turn", moment_arm_error_m, 1e-12, "m"},
+          {2, "path length over that pulley, against a linear function of the angle",
+           path_length_error_m, 1e-12, "m"}};
 }
 
 Figures muscle_jacobian() {
@@ -81,15 +82,15 @@ Figures muscle_jacobian() {
   std::mt19937 random(3);
   double gradient_m = 0, power_W = 0, force_N = 0, moment_Nm = 0;
   for (int pose = 0; pose < 200; ++pose) {
-    const Joints joints = any_pose(random);
+    const Joints joints = random_state(random);
     arm.model.place(joints);
     for (std::size_t k = 0; k < arm.count(); ++k) {
-      const Sums all = arm.sums(k);
+      const Sums muscle_sums = arm.sums(k);
       // Σ power = −F dL/dt, Σ force = 0, Σ moment = 0
       const double rate_m_per_s = arm.gradient(k).dot(arm.model.velocity());
-      power_W = larger(power_W, std::abs(all.power_W + rate_m_per_s));
-      force_N = larger(force_N, all.force_N.norm());
-      moment_Nm = larger(moment_Nm, all.moment_Nm.norm());
+      power_W = larger(power_W, std::abs(muscle_sums.power_W + rate_m_per_s));
+      force_N = larger(force_N, muscle_sums.force_N.norm());
+      moment_Nm = larger(moment_Nm, muscle_sums.moment_Nm.norm());
       gradient_m = larger(gradient_m, gradient_error_m(arm, joints, k));
     }
   }

@@ -28,28 +28,28 @@ double exact_period_s(double amplitude) {
 double period_error() {
   const double amplitude = 1.2;  // chosen
   World world(rigs::pendulum(amplitude));
-  const double found_s = mean_period_s(world, 10, dt_s, [&] { return angle(world); });
-  return relative(found_s, exact_period_s(amplitude));
+  const double measured_period_s = mean_period_s(world, 10, dt_s, [&] { return angle(world); });
+  return relative_error(measured_period_s, exact_period_s(amplitude));
 }
 
-/// The angle at which the motion reverses.
-double next_turn(World& world) {
-  for (double before = speed(world);; before = speed(world)) {
+/// Steps the world until the joint reverses its direction. Returns its angle at this time.
+double next_reversal(World& world) {
+  for (double speed_before = speed(world);; speed_before = speed(world)) {
     world.step({}, dt_s);
-    if (before * speed(world) < 0) return angle(world);
+    if (speed_before * speed(world) < 0) return angle(world);
   }
 }
 
 // |θ_k| − |θ_k+1| = 2 τ_c / (m g l), sin θ ≈ θ
 double coulomb_error() {
-  const double coulomb_Nm = 0.004, start = 0.15;  // chosen
-  World world(rigs::pendulum(start, 0, coulomb_Nm));
+  const double coulomb_Nm = 0.004, start_rad = 0.15;  // chosen
+  World world(rigs::pendulum(start_rad, 0, coulomb_Nm));
   const double exact = 2 * coulomb_Nm / (rigs::pendulum_mass_kg * g * rigs::pendulum_l_m);
-  double worst = 0, last = start;
+  double worst = 0, last_angle = start_rad;
   for (int k = 0; k < 6; ++k) {
-    const double turn = std::abs(next_turn(world));
-    worst = larger(worst, relative(last - turn, exact));
-    last = turn;
+    const double reversal_angle = std::abs(next_reversal(world));
+    worst = larger(worst, relative_error(last_angle - reversal_angle, exact));
+    last_angle = reversal_angle;
   }
   return worst;
 }
@@ -72,12 +72,13 @@ Drift ball_drift() {
            inertia_kg_m2.cwiseProduct(vector_of(world.joints()[0].velocity_rad_per_s));
   };
   const double energy_J = world.energy_J();
-  const Vec3 start = momentum();
+  const Vec3 start_momentum = momentum();
   Drift worst;
   for (int k = 0; k < 50000; ++k) {
     world.step({}, dt_s);
-    worst.energy = larger(worst.energy, relative(world.energy_J(), energy_J));
-    worst.momentum = larger(worst.momentum, (momentum() - start).norm() / start.norm());
+    worst.energy = larger(worst.energy, relative_error(world.energy_J(), energy_J));
+    worst.momentum =
+        larger(worst.momentum, (momentum() - start_momentum).norm() / start_momentum.norm());
   }
   return worst;
 }

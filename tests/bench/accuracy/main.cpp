@@ -19,17 +19,17 @@ constexpr auto begin_line =
 constexpr auto end_line = "<!-- accuracy ends -->\n";
 
 Figures measure() {
-  Figures all;
+  Figures figures;
   for (const auto test : {accuracy::sphere_wrap, accuracy::quarter_turn, accuracy::muscle_jacobian,
-                          accuracy::motor, accuracy::hung_mass, accuracy::pendulum,
+                          accuracy::motor, accuracy::suspended_mass, accuracy::pendulum,
                           accuracy::free_arm, accuracy::dynamics, accuracy::order_and_repetition}) {
-    const Figures some = test();
-    all.insert(all.end(), some.begin(), some.end());
+    const Figures figures_of_test = test();
+    figures.insert(figures.end(), figures_of_test.begin(), figures_of_test.end());
   }
-  return all;
+  return figures;
 }
 
-std::string number(double value, const std::string& unit) {
+std::string text_of(double value, const std::string& unit) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.2g", value);
   return text.data() + (unit.empty() ? "" : " " + unit);
@@ -39,20 +39,20 @@ std::string table_of(const Figures& figures) {
   std::ostringstream table;
   table << "| test | what | found | allowed |\n|---|---|---|---|\n";
   for (const Figure& f : figures)
-    table << "| " << f.test << " | " << f.what << " | " << number(f.found, f.unit) << " | "
-          << number(f.allowed, f.unit) << " |\n";
+    table << "| " << f.test << " | " << f.description << " | " << text_of(f.deviation, f.unit)
+          << " | " << text_of(f.limit, f.unit) << " |\n";
   return table.str();
 }
 
 /// Prints the figures that exceed their limits; NaN exceeds every limit.
-bool all_hold(const Figures& figures) {
-  bool hold = true;
+bool all_within_limits(const Figures& figures) {
+  bool within_limits = true;
   for (const Figure& f : figures) {
-    if (f.found <= f.allowed) continue;
-    std::cerr << "erp_accuracy: test " << f.test << " exceeds its limit: " << f.what << '\n';
-    hold = false;
+    if (f.deviation <= f.limit) continue;
+    std::cerr << "erp_accuracy: test " << f.test << " exceeds its limit: " << f.description << '\n';
+    within_limits = false;
   }
-  return hold;
+  return within_limits;
 }
 
 /// The text before and after a table.
@@ -82,7 +82,7 @@ int run(const std::string& file) {
   const std::string table = table_of(figures);
   std::cout << table;
   if (!file.empty()) write(file, frame.before + table + frame.after);
-  return all_hold(figures) ? 0 : 1;
+  return all_within_limits(figures) ? 0 : 1;
 }
 
 }  // namespace

@@ -20,18 +20,19 @@ struct Load {
   double voltage_V, tension_N;
 };
 
-// eq. 3 of a driving motor that winds up the line, as d/dt (i, ω, θ, 1) = M (i, ω, θ, 1):
-//   L di/dt = V − R i − K_E N ω
-//   J dω/dt = η N (K_T i − µ_M N ω − τ_CM) − µ_G ω − τ_CG − r F,  J = η J_M N² + J_G
-Eigen::Matrix4d driving(const Load& load) {
+/// The matrix M of eq. 3 for a driving motor that winds up the line:
+///   d/dt (i, ω, θ, 1) = M (i, ω, θ, 1)
+///   L di/dt = V − R i − K_E N ω
+///   J dω/dt = η N (K_T i − µ_M N ω − τ_CM) − µ_G ω − τ_CG − r F,  J = η J_M N² + J_G
+Eigen::Matrix4d winding_matrix(const Load& load) {
   const double inertia = eta * m.rotor_inertia_kg_m2 * n * n + m.gear_inertia_kg_m2;
   const double viscous = eta * m.rotor_viscous_Nm_s_per_rad * n * n + m.gear_viscous_Nm_s_per_rad;
-  const double held_Nm =
+  const double resisting_Nm =
       eta * n * m.rotor_coulomb_Nm + m.gear_coulomb_Nm + spindle_radius_m * load.tension_N;
   Eigen::Matrix4d rate = Eigen::Matrix4d::Zero();
   rate.row(0) << -m.resistance_ohm, -m.back_emf_V_s_per_rad * n, 0, load.voltage_V;
   rate.row(0) /= m.inductance_H;
-  rate.row(1) << eta * n * k / inertia, -viscous / inertia, 0, -held_Nm / inertia;
+  rate.row(1) << eta * n * k / inertia, -viscous / inertia, 0, -resisting_Nm / inertia;
   rate(2, 1) = 1;
   return rate;
 }
@@ -48,9 +49,10 @@ double exponential_error(const sim::Motor& motor) {
   for (int i = 1; i <= 200; ++i) {
     const double t = 1e-4 * i;
     // x(t) = exp(M t) x(0)
-    const Eigen::Matrix4d over_t = (driving(lifting) * t).exp();
-    const MotorState end = step(motor, start, lifting.voltage_V, lifting.tension_N, t);
-    worst = larger(worst, (over_t * vector_of(start) - vector_of(end)).cwiseAbs().maxCoeff());
+    const Eigen::Matrix4d transition = (winding_matrix(lifting) * t).exp();
+    const MotorState end_state = step(motor, start, lifting.voltage_V, lifting.tension_N, t);
+    worst =
+        larger(worst, (transition * vector_of(start) - vector_of(end_state)).cwiseAbs().maxCoeff());
   }
   return worst;
 }
@@ -58,15 +60,15 @@ double exponential_error(const sim::Motor& motor) {
 double runge_kutta_error(const sim::Motor& motor) {
   const int steps = 20000;
   const double t = 0.02, h = t / steps;
-  const Eigen::Matrix4d rate = driving(lifting);
+  const Eigen::Matrix4d rate = winding_matrix(lifting);
   Eigen::Vector4d x = vector_of(start);
   for (int i = 0; i < steps; ++i) {
     const Eigen::Vector4d k1 = rate * x, k2 = rate * (x + h / 2 * k1), k3 = rate * (x + h / 2 * k2),
                           k4 = rate * (x + h * k3);
     x += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
   }
-  const MotorState end = step(motor, start, lifting.voltage_V, lifting.tension_N, t);
-  return (x - vector_of(end)).cwiseAbs().maxCoeff();
+  const MotorState end_state = step(motor, start, lifting.voltage_V, lifting.tension_N, t);
+  return (x - vector_of(end_state)).cwiseAbs().maxCoeff();
 }
 
 double steady_error_rad_per_s(const sim::Motor& motor) {
@@ -75,11 +77,11 @@ double steady_error_rad_per_s(const sim::Motor& motor) {
     // ω = (η N (K_T V/R − τ_CM) − τ_CG − r F) / (η N² (K_T K_E/R + µ_M) + µ_G)
     const double drive_Nm = eta * n * (k * load.voltage_V / m.resistance_ohm - m.rotor_coulomb_Nm) -
                             m.gear_coulomb_Nm - spindle_radius_m * load.tension_N;
-    const double braked_Nm_s = k * m.back_emf_V_s_per_rad / m.resistance_ohm;
+    const double back_emf_Nm_s = k * m.back_emf_V_s_per_rad / m.resistance_ohm;
     const double drag_Nm_s =
-        eta * n * n * (braked_Nm_s + m.rotor_viscous_Nm_s_per_rad) + m.gear_viscous_Nm_s_per_rad;
-    const MotorState end = step(motor, {}, load.voltage_V, load.tension_N, 2);
-    worst = larger(worst, std::abs(end.speed_rad_per_s - drive_Nm / drag_Nm_s));
+        eta * n * n * (back_emf_Nm_s + m.rotor_viscous_Nm_s_per_rad) + m.gear_viscous_Nm_s_per_rad;
+    const MotorState end_state = step(motor, {}, load.voltage_V, load.tension_N, 2);
+    worst = larger(worst, std::abs(end_state.speed_rad_per_s - drive_Nm / drag_Nm_s));
   }
   return worst;
 }
@@ -97,12 +99,13 @@ double locked_error_A(const sim::Motor& motor) {
 }
 
 double rotation_below_friction_rad(const sim::Motor& motor) {
-  // τ_C on the motor's shaft: τ_CM + τ_CG / (η N)
-  const double holds_A = (m.rotor_coulomb_Nm + m.gear_coulomb_Nm / (eta * n)) / k;
+  // the current that balances the friction on the motor's shaft: τ_CM + τ_CG / (η N)
+  const double friction_A = (m.rotor_coulomb_Nm + m.gear_coulomb_Nm / (eta * n)) / k;
   double worst = 0;
-  for (const double share : {-0.9999, -0.5, 0.5, 0.9999}) {
+  for (const double fraction : {-0.9999, -0.5, 0.5, 0.9999}) {
     MotorState x;
-    for (int i = 0; i < 10000; ++i) x = step(motor, x, share * holds_A * m.resistance_ohm, 0, 1e-3);
+    for (int i = 0; i < 10000; ++i)
+      x = step(motor, x, fraction * friction_A * m.resistance_ohm, 0, 1e-3);
     worst = larger(worst, std::abs(x.shaft_rad));
   }
   return worst;
@@ -123,7 +126,7 @@ Figures motor() {
            rotation_below_friction_rad(motor), 0, "rad"},
           {4, "energy balance error / energy converted, in all four quadrants", audit.balance_error,
            1e-6, ""},
-          {4, "power generated by the gearbox", audit.gearbox_generates_W, 0, "W"}};
+          {4, "power generated by the gearbox", audit.gearbox_generated_W, 0, "W"}};
 }
 
 }  // namespace accuracy

@@ -5,7 +5,8 @@
 
 namespace accuracy {
 
-/// Sums over the forces of a path at 1 N, including pulleys: power, force, moment about the world origin.
+/// Sums over the forces of a path at a tension of 1 N, including the forces on pulleys. The moment
+/// is about the origin of the world.
 struct Sums {
   double power_W = 0;
   sim::Vec3 force_N = sim::Vec3::Zero(), moment_Nm = sim::Vec3::Zero();
@@ -30,18 +31,18 @@ class Muscles {
   }
   Sums sums(std::size_t k) const {
     const sim::PathShape shape = path(k);
-    Sums all;
+    Sums total;
     for (const sim::PathPull& pull : shape.pulled()) {
       const auto body = static_cast<std::size_t>(pull.body);
       const sim::BodyTwist& twist = model.twists()[body];
-      const sim::Vec3 from_m = pull.at_m - model.poses()[body].position_m;
-      all.power_W +=
-          pull.direction.dot(twist.linear_m_per_s + twist.angular_rad_per_s.cross(from_m));
-      all.power_W += pull.moment_m.dot(twist.angular_rad_per_s);
-      all.force_N += pull.direction;
-      all.moment_Nm += pull.at_m.cross(pull.direction) + pull.moment_m;
+      const sim::Vec3 lever_arm_m = pull.at_m - model.poses()[body].position_m;
+      total.power_W +=
+          pull.direction.dot(twist.linear_m_per_s + twist.angular_rad_per_s.cross(lever_arm_m));
+      total.power_W += pull.moment_m.dot(twist.angular_rad_per_s);
+      total.force_N += pull.direction;
+      total.moment_Nm += pull.at_m.cross(pull.direction) + pull.moment_m;
     }
-    return all;
+    return total;
   }
 
  private:

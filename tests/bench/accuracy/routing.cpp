@@ -43,39 +43,44 @@ struct Ends {
   }
   // L'(θ₀ + 0) = L'(θ₀ − 0)
   double slope_jump_m() const {
-    const double at = lift_off_rad(), h = 1e-6, middle_m = wrap(at).length_m;
-    return std::abs(wrap(at + h).length_m - 2 * middle_m + wrap(at - h).length_m) / h;
+    const double lift_off = lift_off_rad(), h = 1e-6, middle_m = wrap(lift_off).length_m;
+    return std::abs(wrap(lift_off + h).length_m - 2 * middle_m + wrap(lift_off - h).length_m) / h;
   }
   // entry · (A − entry) = 0 = exit · (B − exit)
   double tangent_cosine(double theta) const {
     const Wrap line = wrap(theta);
-    const Vec3 in = from_m() - line.entry_m, out = to_m(theta) - line.exit_m;
-    return std::max(std::abs(line.entry_m.normalized().dot(in.normalized())),
-                    std::abs(line.exit_m.normalized().dot(out.normalized())));
+    const Vec3 entry_direction = from_m() - line.entry_m,
+               exit_direction = to_m(theta) - line.exit_m;
+    return std::max(std::abs(line.entry_m.normalized().dot(entry_direction.normalized())),
+                    std::abs(line.exit_m.normalized().dot(exit_direction.normalized())));
   }
 };
 
 /// Chosen: spheres with radii of 10 to 50 mm, end points up to five radii away.
-Ends any_ends(std::mt19937& random) {
-  std::uniform_real_distribution<double> radius_m(0.01, 0.05), far(1.05, 5), part(-1, 1);
-  const double r_m = radius_m(random), a_m = r_m * far(random), b_m = r_m * far(random);
-  const Eigen::Quaterniond plane(part(random), part(random), part(random), part(random));
+Ends random_ends(std::mt19937& random) {
+  std::uniform_real_distribution<double> radius_m(0.01, 0.05), distance_in_radii(1.05, 5),
+      component(-1, 1);
+  const double r_m = radius_m(random), a_m = r_m * distance_in_radii(random),
+               b_m = r_m * distance_in_radii(random);
+  const Eigen::Quaterniond plane(component(random), component(random), component(random),
+                                 component(random));
   return {r_m, a_m, b_m, plane.normalized().toRotationMatrix()};
 }
 
-erp::Tendon over(const erp::Pulley& pulley, const erp::Attach& from, const erp::Attach& to) {
+erp::Tendon tendon_over(const erp::Pulley& pulley, const erp::Attach& from, const erp::Attach& to) {
   erp::Tendon tendon = rigs::hinge_tendon();
   tendon.path = {from, pulley, to};
   return tendon;
 }
 
-/// 1 if a path with an end at `depth` radii from the centre is accepted.
+/// Returns 1 if a path with an end at `depth` radii from the centre is accepted, else 0.
 double accepted(double depth) {
   const double r_m = 0.03;  // chosen
   const std::vector<std::string> bodies{"base"};
-  const sim::Routing routing(over({{}, "base", {0, 0, 0}, r_m}, {{}, "base", {0, 0, depth * r_m}},
-                                  {{}, "base", {0, 0, -0.2}}),
-                             bodies);
+  const sim::Routing routing(
+      tendon_over({{}, "base", {0, 0, 0}, r_m}, {{}, "base", {0, 0, depth * r_m}},
+                  {{}, "base", {0, 0, -0.2}}),
+      bodies);
   try {
     routing.require_outside(std::vector<sim::BodyPose>(1));
     return 1;
@@ -90,7 +95,7 @@ Figures sphere_wrap() {
   double length_m = 0, opposite_m = 0, jump_m = 0, cosine = 0;
   std::mt19937 random(1);
   for (int evaluation = 0; evaluation < 1000; ++evaluation) {
-    const Ends ends = any_ends(random);
+    const Ends ends = random_ends(random);
     for (double theta = 1e-3; theta < std::numbers::pi; theta += 0.02) {
       length_m = larger(length_m, ends.error_m(theta));
       if (theta > ends.lift_off_rad()) cosine = larger(cosine, ends.tangent_cosine(theta));

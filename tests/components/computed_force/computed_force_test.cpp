@@ -16,7 +16,7 @@ struct Bench : JointBench {
 };
 
 /// Parameters without compensation of the force laws' lag.
-ComputedForce::Params plain() {
+ComputedForce::Params without_lag_compensation() {
   ComputedForce::Params params;
   params.lag_compensation = 0;
   return params;
@@ -26,13 +26,13 @@ ComputedForce::Params plain() {
 
 TEST_CASE("at the target and at rest the tensions give the gravity torque") {
   Bench bench;
-  ComputedForce control(plain(), bench.robot);
+  ComputedForce control(without_lag_compensation(), bench.robot);
   CHECK((bench.torque_of(bench.step(control)) - bench.gravity_Nm()).norm() < 1e-4);
 }
 
 TEST_CASE("an elbow error of 0.1 rad commands an acceleration of k_p times the error") {
   Bench bench;
-  ComputedForce control(plain(), bench.robot);
+  ComputedForce control(without_lag_compensation(), bench.robot);
   bench.target.message.joints._buffer[1].position[0] += 0.1;
   Eigen::MatrixXd inertia;
   bench.model.skeleton().inertia(inertia);
@@ -44,20 +44,20 @@ TEST_CASE("an elbow error of 0.1 rad commands an acceleration of k_p times the e
 
 TEST_CASE("a ball joint error of 3.1 rad gives finite commands within limits") {
   Bench bench;
-  ComputedForce control(plain(), bench.robot);
-  const Eigen::AngleAxisd far(3.1, Eigen::Vector3d(1, 1, 0).normalized());
-  const Eigen::Quaterniond q(far);
-  const double at[] = {q.w(), q.x(), q.y(), q.z()};
-  std::ranges::copy(at, bench.target.message.joints._buffer[0].position);
+  ComputedForce control(without_lag_compensation(), bench.robot);
+  const Eigen::AngleAxisd rotation(3.1, Eigen::Vector3d(1, 1, 0).normalized());
+  const Eigen::Quaterniond q(rotation);
+  const double quaternion_wxyz[] = {q.w(), q.x(), q.y(), q.z()};
+  std::ranges::copy(quaternion_wxyz, bench.target.message.joints._buffer[0].position);
   const auto command = bench.step(control);
   REQUIRE(command);
-  for (const auto& command_of : erp::samples(command->actuators)) {
-    CHECK(std::isfinite(command_of.reference));
-    CHECK(command_of.reference <= 300);
+  for (const auto& reference : erp::samples(command->actuators)) {
+    CHECK(std::isfinite(reference.reference));
+    CHECK(reference.reference <= 300);
   }
 }
 
-TEST_CASE("without valid and fresh joints and target there is no command") {
+TEST_CASE("stale, invalid or incomplete joints or targets give no command") {
   Bench bench;
   ComputedForce control({}, bench.robot);
   CHECK(bench.step(control));
@@ -88,7 +88,7 @@ TEST_CASE("only the joint_state of the named source is used") {
 
 TEST_CASE("a muscle whose ECU has tripped keeps its tension, and the others compensate") {
   Bench bench;
-  ComputedForce control(plain(), bench.robot);
+  ComputedForce control(without_lag_compensation(), bench.robot);
   bench.target.message.joints._buffer[1].position[0] += 0.3;
   const Eigen::VectorXd desired = bench.torque_of(bench.step(control));
   constexpr int brachialis = 9;
@@ -105,15 +105,15 @@ namespace {
 
 /// A random posture near the start: hinges by up to 0.6 rad, ball joints by 0.4 rad per axis.
 std::vector<sim::JointReading> random_posture(const erp::Robot& robot, std::mt19937& random) {
-  std::uniform_real_distribution<double> within(-1, 1);
+  std::uniform_real_distribution<double> uniform(-1, 1);
   std::vector<sim::JointReading> joints;
   for (const erp::Joint& joint : robot.joints()) {
     joints.push_back(sim::initial_reading(joint));
-    const double reach = joint.type == erp::JointType::revolute ? 0.6 : 0.4;
+    const double range_rad = joint.type == erp::JointType::revolute ? 0.6 : 0.4;
     joints.back().position =
         sim::displaced(joint.type, joints.back().position,
-                       std::array{reach * (1 + within(random)) / 2, reach * within(random),
-                                  reach * within(random)});
+                  std::array{range_rad * (1 + uniform(random)) / 2, range_rad * uniform(random),
+                             range_rad * uniform(random)});
   }
   return joints;
 }
@@ -147,19 +147,19 @@ TEST_CASE("online learning halves the Jacobian error of a wrong robot.xml") {
   const auto source =
       control::jacobian_source(control::JacobianKind::on_line, "", model_robot, model);
   std::mt19937 random(7);
-  const auto off = [&](int postures, bool learn) {
-    double squares = 0;
+  const auto rms_error_m = [&](int postures, bool learn) {
+    double square_sum = 0;
     for (int k = 0; k < postures; ++k) {
       const auto joints = random_posture(real, random);
       truth.place(joints), model.place(joints);
       if (learn) source->update(joints, measured(real, truth));
-      squares += (source->at(joints) - truth.jacobian()).squaredNorm();
+      square_sum += (source->at(joints) - truth.jacobian()).squaredNorm();
     }
-    return std::sqrt(squares / postures);
+    return std::sqrt(square_sum / postures);
   };
-  const double before = off(100, false);
-  off(3000, true);
-  const double after = off(100, false);
+  const double before = rms_error_m(100, false);
+  rms_error_m(3000, true);
+  const double after = rms_error_m(100, false);
   INFO(1e3 * before << " mm before, " << 1e3 * after << " mm after");
   CHECK(before > 0.003);
   CHECK(after < before / 2);

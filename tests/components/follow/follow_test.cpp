@@ -27,7 +27,7 @@ node::Latest<erp::ActuatorTarget> target_of(erp::Mode mode, double reference) {
   return target;
 }
 
-erp::ActuatorReference only(const std::optional<erp::ActuatorCommand>& command) {
+erp::ActuatorReference only_reference(const std::optional<erp::ActuatorCommand>& command) {
   REQUIRE(command);
   REQUIRE(command->actuators._length == 1);
   return command->actuators._buffer[0];
@@ -35,33 +35,37 @@ erp::ActuatorReference only(const std::optional<erp::ActuatorCommand>& command) 
 
 }  // namespace
 
-TEST_CASE("at the ECU a target is passed on unchanged") {
+TEST_CASE("with where=\"ecu\" a target is passed on unchanged") {
   ForceControl control({}, rig());
-  const auto sent = only(control.step(frame_with(0, 5), 0.002, target_of(erp::Mode::force, 20)));
+  const auto sent =
+      only_reference(control.step(frame_with(0, 5), 0.002, target_of(erp::Mode::force, 20)));
   CHECK(sent.mode == static_cast<std::uint8_t>(erp::Mode::force));
   CHECK(sent.reference == 20);
 }
 
 TEST_CASE("on the host the length law winds a line that is too long, within the current limit") {
   LengthControl control({.where = follow::Where::host}, rig());
-  const auto weak =
-      only(control.step(frame_with(0, 5), 0.002, target_of(erp::Mode::length, -1e-5)));
-  CHECK(weak.mode == static_cast<std::uint8_t>(erp::Mode::voltage));
-  CHECK(weak.reference > 0);
-  // Far away and at rest the current limit of 4 A leaves R i = 0.516 · 4 V.
-  const auto far = only(control.step(frame_with(0, 5), 0.002, target_of(erp::Mode::length, -0.1)));
-  CHECK(far.reference == Approx(0.516 * 4).epsilon(1e-5));
+  const auto small_error =
+      only_reference(control.step(frame_with(0, 5), 0.002, target_of(erp::Mode::length, -1e-5)));
+  CHECK(small_error.mode == static_cast<std::uint8_t>(erp::Mode::voltage));
+  CHECK(small_error.reference > 0);
+  // With a large error at rest the current limit of 4 A allows R i = 0.516 · 4 V.
+  const auto large_error =
+      only_reference(control.step(frame_with(0, 5), 0.002, target_of(erp::Mode::length, -0.1)));
+  CHECK(large_error.reference == Approx(0.516 * 4).epsilon(1e-5));
 }
 
 TEST_CASE("on the host the force law gives positive voltage below its reference, negative above") {
   ForceControl control({.where = follow::Where::host}, rig());
-  const auto below = only(control.step(frame_with(0, 10), 0.002, target_of(erp::Mode::force, 20)));
-  const auto above = only(control.step(frame_with(0, 30), 0.002, target_of(erp::Mode::force, 20)));
+  const auto below =
+      only_reference(control.step(frame_with(0, 10), 0.002, target_of(erp::Mode::force, 20)));
+  const auto above =
+      only_reference(control.step(frame_with(0, 30), 0.002, target_of(erp::Mode::force, 20)));
   CHECK(below.reference > 0);
   CHECK(above.reference < 0);
 }
 
-TEST_CASE("without a fresh target there is no command") {
+TEST_CASE("a missing target or one older than 0.1 s gives no command") {
   ForceControl control({}, rig());
   CHECK_FALSE(control.step(frame_with(0, 5), 0.002, {}));
   auto stale = target_of(erp::Mode::force, 20);

@@ -13,44 +13,45 @@ erp::Robot hinge_rig() { return erp::read_robot(rigs::config("hinge_rig/robot.xm
 
 /// A row of a recording as a sensor frame.
 erp::SensorFrame frame_of(const recording::Table& table, const erp::Robot& robot, std::size_t row) {
-  const auto at = [&](const std::string& name) { return table.find(name)->values[row]; };
+  const auto value_of = [&](const std::string& name) { return table.find(name)->values[row]; };
   erp::SensorFrame frame;
-  frame.stamp_ns = std::llround(1e9 * at("time_s")), frame.sequence = row;
+  frame.stamp_ns = std::llround(1e9 * value_of("time_s")), frame.sequence = row;
   for (const erp::Actuator& a : robot.actuators) {
     erp::ActuatorSample s{};
     erp::assign(s.name, a.name);
-    s.valid = erp::valid::all, s.mode = std::uint8_t(at(a.name + ".mode"));
-    s.reference = at(a.name + ".reference"), s.voltage_V = at(a.name + ".voltage_V");
-    s.current_A = at(a.name + ".current_A"), s.shaft_rad = at(a.name + ".shaft_rad");
-    s.tension_N = at(a.name + ".tension_N");
+    s.valid = erp::valid::all, s.mode = std::uint8_t(value_of(a.name + ".mode"));
+    s.reference = value_of(a.name + ".reference"), s.voltage_V = value_of(a.name + ".voltage_V");
+    s.current_A = value_of(a.name + ".current_A"), s.shaft_rad = value_of(a.name + ".shaft_rad");
+    s.tension_N = value_of(a.name + ".tension_N");
     erp::append(frame.actuators, s);
   }
   erp::JointSample joint{};
   erp::assign(joint.name, "elbow");
-  joint.valid = erp::valid::joint_angle, joint.angle_rad = at("elbow.angle_rad");
+  joint.valid = erp::valid::joint_angle, joint.angle_rad = value_of("elbow.angle_rad");
   erp::append(frame.joints, joint);
   return frame;
 }
 
-/// The stages that are open after a run of the rig with such effects.
-std::vector<std::string> open_after(const std::vector<erp::Effect>& effects) {
+/// The stages with an open gap after a run of the rig with the given effects.
+std::vector<std::string> open_stages(const std::vector<erp::Effect>& effects) {
   erp::Robot real = hinge_rig();
   real.effects = effects;
   const auto table = rig_recording::table_of_run(real, {.seconds = 5});
   gap_monitor::Window window(hinge_rig(), 4);
-  std::string why;
+  std::string reason;
+  constexpr std::size_t window_rows = 2000;  // 4 s
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    CHECK((row > 1999 || window.evaluate(why).empty()));
+    CHECK((row >= window_rows || window.evaluate(reason).empty()));
     window.receive(frame_of(table, real, row));
   }
-  std::vector<std::string> open;
-  const auto gaps = window.evaluate(why);
-  CHECK(why.empty());
+  std::vector<std::string> open_gaps;
+  const auto gaps = window.evaluate(reason);
+  CHECK(reason.empty());
   CHECK_FALSE(gaps.empty());
   for (const auto& gap : gaps)
-    if (gap.open) open.push_back(std::string(sim::effects::word(gap.stage)) + " " + gap.on);
-  std::ranges::sort(open);
-  return open;
+    if (gap.open) open_gaps.push_back(std::string(sim::effects::word(gap.stage)) + " " + gap.on);
+  std::ranges::sort(open_gaps);
+  return open_gaps;
 }
 
 }  // namespace
@@ -58,8 +59,8 @@ std::vector<std::string> open_after(const std::vector<erp::Effect>& effects) {
 TEST_CASE(
     "no stage is open for a robot as modelled; friction in a gearbox opens the stage of that "
     "gearbox") {
-  CHECK(open_after({}).empty());
-  CHECK(open_after({{{}, "gearbox_coulomb", "extensor", {{{}, "extra_Nm", "0.03"}}}}) ==
+  CHECK(open_stages({}).empty());
+  CHECK(open_stages({{{}, "gearbox_coulomb", "extensor", {{{}, "extra_Nm", "0.03"}}}}) ==
         std::vector<std::string>{"gearbox extensor"});
 }
 

@@ -19,18 +19,18 @@ namespace {
 
 constexpr double period_s = 0.01, degree = std::numbers::pi / 180;
 
-double apart(const sim::JointReading& a, const sim::JointReading& b) {
-  const auto way = sim::displacement(a.type, a.position, b.position);
-  return std::hypot(way[0], way[1], way[2]);
+double angle_between_rad(const sim::JointReading& a, const sim::JointReading& b) {
+  const auto rotation = sim::displacement(a.type, a.position, b.position);
+  return std::hypot(rotation[0], rotation[1], rotation[2]);
 }
 
-/// Result of tracking the arm through its figure: RMS error by joint over the images in which it
-/// was found.
+/// Result of tracking the arm through its figure: RMS error by joint over the images in which the
+/// arm was found.
 struct Tracked {
   std::vector<double> rms_rad;
   int images = 0, found = 0;
 };
-Tracked track_figure(Studio& studio, std::span<const sim::cameras::Bone> more = {}) {
+Tracked track_figure(Studio& studio, std::span<const sim::cameras::Bone> poles = {}) {
   const auto poses = sim::poses_of(
       recording::read_table(ERP_SOURCE_DIR "/configs/arm/figure_8.csv"), studio.robot);
   const sim::JointPath path(studio.robot.joints(), poses);
@@ -42,13 +42,13 @@ Tracked track_figure(Studio& studio, std::span<const sim::cameras::Bone> more = 
     path.at(t, motions);
     joints.clear();
     for (const auto& motion : motions) joints.push_back(motion.now);
-    const auto pair = studio.images(joints, more);
-    const auto seen = capture.see(pair[0], pair[1], period_s);
+    const auto pair = studio.images(joints, poles);
+    const auto captured = capture.process(pair[0], pair[1], period_s);
     ++tracked.images;
-    if (!seen) continue;
+    if (!captured) continue;
     ++tracked.found;
     for (std::size_t j = 0; j < joints.size(); ++j)
-      tracked.rms_rad[j] += std::pow(apart(seen->joints[j], joints[j]), 2);
+      tracked.rms_rad[j] += std::pow(angle_between_rad(captured->joints[j], joints[j]), 2);
   }
   for (double& e : tracked.rms_rad) e = std::sqrt(e / tracked.found);
   return tracked;
@@ -76,7 +76,7 @@ TEST_CASE("the spot of a ball is within 0.1 pixel of its projection") {
     sim::cameras::Painter painter(camera, {}, 3);
     const auto spots = find_spots(painter.paint(std::span(&ball, 1), {}), {});
     REQUIRE(spots.size() == 1);
-    CHECK((spots[0].at - *camera.project(ball.at_m)).norm() < 0.1);
+    CHECK((spots[0].centre - *camera.project(ball.at_m)).norm() < 0.1);
   }
 }
 
@@ -101,7 +101,7 @@ TEST_CASE("the arm is tracked through its figure within 0.3 degrees although bon
   for (const double e : tracked.rms_rad) CHECK(e < 0.3 * degree);
 }
 
-TEST_CASE("with a pole in front of the arm it is still tracked within 0.3 degrees") {
+TEST_CASE("an arm behind a pole is tracked within 0.3 degrees") {
   Studio studio;
   const sim::cameras::Bone pole{{0.8, -0.25, -1}, {0.8, -0.25, 1}, 0.02};
   const auto tracked = track_figure(studio, std::span(&pole, 1));
@@ -109,7 +109,7 @@ TEST_CASE("with a pole in front of the arm it is still tracked within 0.3 degree
   for (const double e : tracked.rms_rad) CHECK(e < 0.3 * degree);
 }
 
-TEST_CASE("a robot that was hidden, or is not at its predicted pose, is found") {
+TEST_CASE("a robot is found after it was hidden, and away from its predicted pose") {
   Studio studio;
   Capture capture = studio.capture();
   std::vector<sim::JointReading> joints;
@@ -118,15 +118,15 @@ TEST_CASE("a robot that was hidden, or is not at its predicted pose, is found") 
   joints[0].position =
       sim::displaced(joints[0].type, joints[0].position, std::array<double, 3>{0.3, -0.5, 0.4});
   const auto pair = studio.images(joints);
-  const auto seen = capture.see(pair[0], pair[1], period_s);
-  REQUIRE(seen);
+  const auto captured = capture.process(pair[0], pair[1], period_s);
+  REQUIRE(captured);
   for (std::size_t j = 0; j < joints.size(); ++j)
-    CHECK(apart(seen->joints[j], joints[j]) < 0.5 * degree);
+    CHECK(angle_between_rad(captured->joints[j], joints[j]) < 0.5 * degree);
   const sim::cameras::Bone wall{{0.5, -2, -0.2}, {0.5, 2, -0.2}, 1};
   const auto hidden = studio.images(joints, std::span(&wall, 1));
-  CHECK_FALSE(capture.see(hidden[0], hidden[1], period_s));
+  CHECK_FALSE(capture.process(hidden[0], hidden[1], period_s));
   CHECK(capture.lost());
-  CHECK(capture.see(pair[0], pair[1], period_s));
+  CHECK(capture.process(pair[0], pair[1], period_s));
 }
 
 TEST_CASE("a joint whose body is hidden is unknown, and is found again at another angle") {
@@ -135,21 +135,21 @@ TEST_CASE("a joint whose body is hidden is unknown, and is found again at anothe
   std::vector<sim::JointReading> joints;
   for (const auto& joint : studio.robot.joints()) joints.push_back(sim::initial_reading(joint));
   auto pair = studio.images(joints);
-  REQUIRE(capture.see(pair[0], pair[1], period_s));
+  REQUIRE(capture.process(pair[0], pair[1], period_s));
   const sim::cameras::Bone wall{{0.6, -2, -0.67}, {0.6, 2, -0.67}, 0.55};
   pair = studio.images(joints, std::span(&wall, 1));
-  auto seen = capture.see(pair[0], pair[1], period_s);
-  REQUIRE(seen);
-  CHECK(seen->known == std::vector{true, false});
+  auto captured = capture.process(pair[0], pair[1], period_s);
+  REQUIRE(captured);
+  CHECK(captured->known == std::vector{true, false});
   joints[1].position[0] = 1.5;
   pair = studio.images(joints);
-  seen = capture.see(pair[0], pair[1], period_s);
-  REQUIRE(seen);
-  CHECK(seen->known == std::vector{true, true});
-  CHECK(apart(seen->joints[1], joints[1]) < 0.5 * degree);
+  captured = capture.process(pair[0], pair[1], period_s);
+  REQUIRE(captured);
+  CHECK(captured->known == std::vector{true, true});
+  CHECK(angle_between_rad(captured->joints[1], joints[1]) < 0.5 * degree);
 }
 
-TEST_CASE("images survive writing and reading exactly, and a wrong size is refused") {
+TEST_CASE("an image is unchanged after writing and reading, and a wrong size is refused") {
   test::Folder folder;
   Studio studio;
   const auto pair = studio.images(std::vector{sim::initial_reading(studio.robot.joints()[0]),

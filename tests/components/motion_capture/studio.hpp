@@ -33,31 +33,31 @@ struct Studio {
   Capture capture() const { return {tree, markers, cameras, params.options}; }
 
   std::vector<sim::cameras::Ball> balls() const {
-    std::vector<sim::cameras::Ball> all;
+    std::vector<sim::cameras::Ball> result;
     for (const Marker& m : markers) {
       const sim::BodyPose& body = bones.poses()[m.body];
-      all.push_back({body.position_m + body.rotation * m.at_m, params.film.ball_m});
+      result.push_back({body.position_m + body.rotation * m.at_m, params.image_params.ball_m});
     }
-    return all;
+    return result;
   }
   std::vector<sim::cameras::Bone> limbs() const {
-    std::vector<sim::cameras::Bone> all;
-    for (const auto& bone : params.film.bones) {
+    std::vector<sim::cameras::Bone> result;
+    for (const auto& bone : params.image_params.bones) {
       const auto body = std::size_t(std::ranges::find(tree.names, bone.body) - tree.names.begin());
       const sim::BodyPose& pose = bones.poses()[body];
-      const auto at = [&](const xml::Vec3& v) {
+      const auto position = [&](const xml::Vec3& v) {
         return Vec3(pose.position_m + pose.rotation * Vec3(v[0], v[1], v[2]));
       };
-      all.push_back({at(bone.from_m), at(bone.to_m), bone.radius_m});
+      result.push_back({position(bone.from_m), position(bone.to_m), bone.radius_m});
     }
-    return all;
+    return result;
   }
   std::array<sim::cameras::Image, 2> images(std::span<const sim::JointReading> joints,
-                                            std::span<const sim::cameras::Bone> more = {}) {
+                                            std::span<const sim::cameras::Bone> additional = {}) {
     bones.place(joints);
-    auto hiding = limbs();
-    hiding.insert(hiding.end(), more.begin(), more.end());
-    return {painters[0].paint(balls(), hiding), painters[1].paint(balls(), hiding)};
+    auto occluders = limbs();
+    occluders.insert(occluders.end(), additional.begin(), additional.end());
+    return {painters[0].paint(balls(), occluders), painters[1].paint(balls(), occluders)};
   }
 };
 

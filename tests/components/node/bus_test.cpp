@@ -23,9 +23,9 @@ struct Pair {
     while (!writer.matched() || !reader.matched()) std::this_thread::sleep_for(1ms);
   }
   /// Takes until a sample has arrived or 2000 attempts have failed.
-  template <class Use>
-  void take(Use&& use) {
-    for (int i = 0; i < 2000 && !reader.take(use); ++i) std::this_thread::sleep_for(1ms);
+  template <class Handle>
+  void take(Handle&& handle) {
+    for (int i = 0; i < 2000 && !reader.take(handle); ++i) std::this_thread::sleep_for(1ms);
   }
 };
 
@@ -48,12 +48,12 @@ TEST_CASE("a message with 54 samples arrives with all its samples") {
   auto sent = frame_of(54);
   pair.writer.write(sent);
   int received = 0;
-  pair.take([&](const erp::SensorFrame& got) {
+  pair.take([&](const erp::SensorFrame& message) {
     ++received;
-    REQUIRE(got.actuators._length == 54);
-    CHECK(std::string(got.actuators._buffer[53].name) == "muscle_53");
-    CHECK(got.actuators._buffer[53].tension_N == 53);
-    CHECK(got.joints._length == 0);
+    REQUIRE(message.actuators._length == 54);
+    CHECK(std::string(message.actuators._buffer[53].name) == "muscle_53");
+    CHECK(message.actuators._buffer[53].tension_N == 53);
+    CHECK(message.joints._length == 0);
   });
   CHECK(received == 1);
 }
@@ -65,7 +65,7 @@ TEST_CASE("a message of two samples after one of five arrives with two samples")
   pair.take([](const auto&) {});
   pair.writer.write(shorter);
   std::uint32_t length = 99;
-  pair.take([&](const erp::SensorFrame& got) { length = got.actuators._length; });
+  pair.take([&](const erp::SensorFrame& message) { length = message.actuators._length; });
   CHECK(length == 2);
 }
 
@@ -104,7 +104,7 @@ TEST_CASE("the quantile of a histogram is the upper edge of its bin") {
   CHECK(node::quantile_us(histogram.counts(), 0.995) == 1024);
 }
 
-TEST_CASE("data of a participant that has left the bus is discarded") {
+TEST_CASE("data of a disconnected participant is discarded") {
   const node::Entity self = node::join("self");
   node::Wake wake;
   const node::DataCallback callback = node::wake_callback(wake);

@@ -12,7 +12,7 @@
 /// Reserves a DDS domain until this process ends. False if another process has reserved it.
 inline bool reserve_domain(int id) {
   const std::string name = "erp_test_domain_" + std::to_string(id);
-  sockaddr_un address{};  // an abstract address: no file is left behind
+  sockaddr_un address{};  // an abstract address, which creates no file
   address.sun_family = AF_UNIX;
   std::ranges::copy(name, address.sun_path + 1);
   const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size());

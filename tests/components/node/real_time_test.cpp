@@ -11,17 +11,17 @@ int policy() { return sched_getscheduler(0); }
 
 }  // namespace
 
-TEST_CASE("started threads inherit real-time priority, and it ends with its object") {
+TEST_CASE("started threads inherit real-time priority, and the priority ends with its object") {
   REQUIRE(node::may_run_in_real_time());  // as root, or with ulimit -r 20
   CHECK(policy() == SCHED_OTHER);
-  int of_thread = -1;
+  int thread_policy = -1;
   {
     const RealTimePriority priority(true);
     CHECK(priority.on());
     CHECK(policy() == SCHED_FIFO);
-    std::thread([&] { of_thread = policy(); }).join();
+    std::thread([&] { thread_policy = policy(); }).join();
   }
-  CHECK(of_thread == SCHED_FIFO);
+  CHECK(thread_policy == SCHED_FIFO);
   CHECK(policy() == SCHED_OTHER);
 }
 

@@ -30,14 +30,14 @@ TEST_CASE("calls without delay occur once per period") {
   CHECK(skipped == 0);
 }
 
-TEST_CASE("late calls are made at twice the rate, then at the nominal times again") {
+TEST_CASE("overdue calls are made at twice the rate until the nominal times are reached") {
   std::int64_t skipped = 0;
   CHECK(calls(Timer(period_ns, 10000, 0), 7500, 14000, skipped) ==
         std::vector<std::int64_t>{7500, 8500, 9500, 10500, 11500, 12500, 14000});
   CHECK(skipped == 0);
 }
 
-TEST_CASE("calls later than catch_up_ns are skipped and counted") {
+TEST_CASE("calls overdue by more than catch_up_ns are skipped and counted") {
   std::int64_t skipped = 0;
   CHECK(calls(Timer(period_ns, 0, 0), 9000, 12000, skipped) ==
         std::vector<std::int64_t>{9000, 10000, 12000});

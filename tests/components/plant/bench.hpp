@@ -3,7 +3,7 @@
 
 #include "components/plant/plant.hpp"
 
-/// A plant with one actuator. The test plays the controllers and the ECU.
+/// A plant with one actuator. The test sends the messages of controllers and of the ECU.
 namespace bench {
 
 using erp::Mode;

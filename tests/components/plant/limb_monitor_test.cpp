@@ -1,4 +1,4 @@
-// When one ECU of a limb is lost, the actuators of that limb, and no others, take their safe action.
+// When one ECU of a limb is lost, only the actuators of that limb take their safe action.
 #include "components/plant/limb_monitor.hpp"
 
 #include <catch2/catch.hpp>

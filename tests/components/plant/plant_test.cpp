@@ -38,7 +38,7 @@ TEST_CASE("the controller of higher priority is the owner until its command is s
   CHECK(std::string(bench.owner().owner) == "low");
 }
 
-TEST_CASE("among equal priorities the present owner stays owner") {
+TEST_CASE("among equal priorities the current owner remains owner") {
   Bench bench;
   bench.run("first", Mode::force, 10);
   bench.command("second", 0, Mode::force, 30);

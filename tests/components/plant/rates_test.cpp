@@ -37,11 +37,11 @@ TEST_CASE("a rate limiter moves at its rate in both directions and stops at the 
 TEST_CASE("a force reference rises at the actuator's tension rate of 500 N/s") {
   erp::Robot robot = one_muscle();
   robot.actuators[0].max_tension_rate_N_per_s = 500;
-  Bench slow(robot), free;
-  slow.run("a", erp::Mode::force, 20);
-  free.run("a", erp::Mode::force, 20);
-  CHECK(setpoints_of(free, erp::Mode::force, 60, 1)[0] == 60000);
-  const auto setpoints = setpoints_of(slow, erp::Mode::force, 60, 100);
+  Bench limited(robot), unlimited;
+  limited.run("a", erp::Mode::force, 20);
+  unlimited.run("a", erp::Mode::force, 20);
+  CHECK(setpoints_of(unlimited, erp::Mode::force, 60, 1)[0] == 60000);
+  const auto setpoints = setpoints_of(limited, erp::Mode::force, 60, 100);
   CHECK(setpoints.front() < 45000);  // starts at the measured 40 N
   for (std::size_t k = 1; k < setpoints.size(); ++k)
     CHECK(setpoints[k] - setpoints[k - 1] <= 1001);  // 500 N/s for 2 ms, in mN
@@ -54,10 +54,10 @@ TEST_CASE("a length reference moves at the actuator's line speed before and afte
   Bench bench(robot);
   bench.run("a", erp::Mode::length, 0);
   const double counts_per_m = setpoints_of(bench, erp::Mode::length, -0.002, 200).back() / 0.002;
-  const auto back = setpoints_of(bench, erp::Mode::length, 0, 200);
+  const auto return_setpoints = setpoints_of(bench, erp::Mode::length, 0, 200);
   REQUIRE(counts_per_m > 1e5);
-  for (std::size_t k = 1; k < back.size(); ++k)
-    CHECK(back[k - 1] - back[k] <= 0.01 * 0.002 * counts_per_m + 1);
-  CHECK(back[50] > 0);
-  CHECK(back.back() == 0);
+  for (std::size_t k = 1; k < return_setpoints.size(); ++k)
+    CHECK(return_setpoints[k - 1] - return_setpoints[k] <= 0.01 * 0.002 * counts_per_m + 1);
+  CHECK(return_setpoints[50] > 0);
+  CHECK(return_setpoints.back() == 0);
 }

@@ -32,21 +32,21 @@ TEST_CASE("the reference tension is low while one muscle pulls, and high at and 
   CHECK(reference.of(0, 0) == 15);
   CHECK(reference.of(0.5, -6) == 15);  // the roles change within 0.1 s
   CHECK(reference.of(0.5, 6) == 4);
-  const double near = reference.of(0.1, 0);
-  CHECK(near > 4);
-  CHECK(near < 15);
+  const double between = reference.of(0.1, 0);
+  CHECK(between > 4);
+  CHECK(between < 15);
 }
 
 TEST_CASE("the voltage increases with the tension error") {
   const erp::Actuator& flexor = rig().actuators[0];
   const TensionLinearisation law({rig().motor_of(flexor), flexor.spindle.radius_m},
                                  sim::Spring::of(flexor.tendon), 60);
-  const double still = law.voltage_V({10, 0, 0, 0}, {10, 0, 0});
-  CHECK(law.voltage_V({10, 0, 0, 0}, {12, 0, 0}) > still);
+  const double rest_V = law.voltage_V({10, 0, 0, 0}, {10, 0, 0});
+  CHECK(law.voltage_V({10, 0, 0, 0}, {12, 0, 0}) > rest_V);
   CHECK(law.voltage_V({10, 0, 0, 0}, {14, 0, 0}) > law.voltage_V({10, 0, 0, 0}, {12, 0, 0}));
-  CHECK(law.voltage_V({10, 0, 0, 0}, {8, 0, 0}) < still);
+  CHECK(law.voltage_V({10, 0, 0, 0}, {8, 0, 0}) < rest_V);
   // A lengthening path stretches the tendon: the line is paid out.
-  CHECK(law.voltage_V({10, 0, 0.01, 0}, {10, 0, 0}) < still);
+  CHECK(law.voltage_V({10, 0, 0.01, 0}, {10, 0, 0}) < rest_V);
 }
 
 TEST_CASE("the inverse motor model gives the voltage for a desired speed") {
@@ -67,9 +67,9 @@ TEST_CASE("the inverse motor model gives the voltage for a desired speed") {
 TEST_CASE("a robot with ball joints or without two antagonists is refused, with a remedy") {
   const erp::Robot arm = erp::read_robot(ERP_SOURCE_DIR "/configs/arm/robot.xml");
   CHECK_THROWS_WITH(PullerFollower({}, arm), Catch::Contains("\"shoulder\" is not a hinge"));
-  erp::Robot lonely = rig();
-  lonely.actuators.pop_back();
-  CHECK_THROWS_WITH(PullerFollower({}, lonely),
+  erp::Robot one_muscle = rig();
+  one_muscle.actuators.pop_back();
+  CHECK_THROWS_WITH(PullerFollower({}, one_muscle),
                     Catch::Contains("two antagonists") && Catch::Contains("computed_force"));
   PullerFollower::Params params;
   params.drives.high_N = 1;
@@ -77,8 +77,8 @@ TEST_CASE("a robot with ball joints or without two antagonists is refused, with 
 }
 
 TEST_CASE("each law gives the gravity torque without error and more torque for a positive error") {
-  const erp::Robot seven = erp::read_robot(ERP_SOURCE_DIR "/configs/seven_dof/robot.xml");
-  sim::Musculoskeletal model(seven);
+  const erp::Robot robot = erp::read_robot(ERP_SOURCE_DIR "/configs/seven_dof/robot.xml");
+  sim::Musculoskeletal model(robot);
   const int n = model.coordinates();
   Dynamics dynamics(n);
   dynamics.update(model.skeleton());
@@ -95,20 +95,20 @@ TEST_CASE("each law gives the gravity torque without error and more torque for a
   }
 }
 
-TEST_CASE("a law with an integral state starts at the acting torque and holds it") {
-  const erp::Robot seven = erp::read_robot(ERP_SOURCE_DIR "/configs/seven_dof/robot.xml");
-  sim::Musculoskeletal model(seven);
+TEST_CASE("a law with an integral state starts at the acting torque and keeps it without error") {
+  const erp::Robot robot = erp::read_robot(ERP_SOURCE_DIR "/configs/seven_dof/robot.xml");
+  sim::Musculoskeletal model(robot);
   Dynamics dynamics(model.coordinates());
   dynamics.update(model.skeleton());
-  const JointErrors none(model.coordinates());
-  Eigen::VectorXd acts = dynamics.gravity;
-  acts[3] += 0.2;
+  const JointErrors zero_errors(model.coordinates());
+  Eigen::VectorXd acting_Nm = dynamics.gravity;
+  acting_Nm[3] += 0.2;
   for (const Law kind : {Law::linearised, Law::loop_shaping}) {
     INFO(int(kind));
     const auto law = law_of(kind, {}, model);
-    law->begin(acts, dynamics);
+    law->begin(acting_Nm, dynamics);
     for (int k = 0; k < 100; ++k)
-      CHECK((law->torque_Nm(none, dynamics, 0.002) - acts).norm() < 1e-9);
+      CHECK((law->torque_Nm(zero_errors, dynamics, 0.002) - acting_Nm).norm() < 1e-9);
   }
 }
 
@@ -137,20 +137,20 @@ TEST_CASE("a joint whose motors saturate is braked until it is at rest, then con
   CHECK(mode_after(0, 0, 500) == erp::Mode::voltage);
   CHECK(mode_after(2, 0.5, 100) == erp::Mode::voltage);
   CHECK(mode_after(2, 0.5, 400) == erp::Mode::length);
-  const double still_m = bench.references(bench.step(control))[0];
+  const double held_line_m = bench.references(bench.step(control))[0];
   CHECK(mode_after(2, -0.5, 400) == erp::Mode::length);
   CHECK(bench.references(bench.step(control))[0] <
-        still_m);  // the line was paid out, now it is wound up
+        held_line_m);  // the line was paid out before and is wound up now
   CHECK(mode_after(0, 0, 40) == erp::Mode::length);
   CHECK(mode_after(0, 0, 20) == erp::Mode::voltage);
 }
 
 TEST_CASE("a loop shape without solution is refused") {
   sim::Musculoskeletal model(rig());
-  LawParams late;
-  late.shape.delay_s = 1e-12;  // a pole at 2e12 /s is numerically infeasible
-  late.shape.crossover_Hz = 1e9;
-  CHECK_THROWS_AS(law_of(Law::loop_shaping, late, model), std::invalid_argument);
+  LawParams params;
+  params.shape.delay_s = 1e-12;  // a pole at 2e12 /s is numerically infeasible
+  params.shape.crossover_Hz = 1e9;
+  CHECK_THROWS_AS(law_of(Law::loop_shaping, params, model), std::invalid_argument);
 }
 
 TEST_CASE("without a target, or with an unmeasured tendon, there is no command") {
@@ -163,26 +163,28 @@ TEST_CASE("control starts at the joint's position, and restarts there after miss
   PullerFollower control({}, bench.robot);
   const auto first = bench.references(bench.step(control));
   bench.target.message.joints._buffer[0].position[0] += 0.3;
-  Eigen::VectorXd on = first;
-  for (int k = 0; k < 100; ++k) on = bench.references(bench.step(control));
-  CHECK(on[0] > first[0] + 1);
+  Eigen::VectorXd tracking = first;
+  for (int k = 0; k < 100; ++k) tracking = bench.references(bench.step(control));
+  CHECK(tracking[0] > first[0] + 1);
   CHECK((bench.references(bench.step(control, 0.3)) - first).norm() < 0.2);
 }
 
-TEST_CASE("while a tendon is slack the joint is held, then guided on from there") {
-  JointBench moves("hinge_rig/robot.xml"), stays("hinge_rig/robot.xml");
-  PullerFollower moved({}, moves.robot), stayed({}, stays.robot);
-  moves.target.message.joints._buffer[0].position[0] += 0.3;
-  const auto flexors_differ_V = [&](double extensor_N, int steps) {
-    Eigen::VectorXd differ;
-    for (JointBench* bench : {&moves, &stays})
+TEST_CASE(
+    "while a tendon is slack the joint is held; afterwards it is guided from the held angle") {
+  JointBench moving("hinge_rig/robot.xml"), resting("hinge_rig/robot.xml");
+  PullerFollower moving_control({}, moving.robot), resting_control({}, resting.robot);
+  moving.target.message.joints._buffer[0].position[0] += 0.3;
+  const auto flexor_difference_V = [&](double extensor_N, int steps) {
+    Eigen::VectorXd difference;
+    for (JointBench* bench : {&moving, &resting})
       bench->frame.actuators._buffer[1].tension_N = extensor_N;
     for (int k = 0; k < steps; ++k)
-      differ = moves.references(moves.step(moved)) - stays.references(stays.step(stayed));
-    return differ[0];
+      difference = moving.references(moving.step(moving_control)) -
+                   resting.references(resting.step(resting_control));
+    return difference[0];
   };
-  CHECK(flexors_differ_V(5, 100) > 1);
-  CHECK(flexors_differ_V(0, 100) == Approx(0).margin(0.1));
-  CHECK(flexors_differ_V(5, 1) == Approx(0).margin(0.1));
-  CHECK(flexors_differ_V(5, 100) > 1);
+  CHECK(flexor_difference_V(5, 100) > 1);
+  CHECK(flexor_difference_V(0, 100) == Approx(0).margin(0.1));
+  CHECK(flexor_difference_V(5, 1) == Approx(0).margin(0.1));
+  CHECK(flexor_difference_V(5, 100) > 1);
 }

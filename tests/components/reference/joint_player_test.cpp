@@ -16,11 +16,11 @@ struct Fixture {
   test::Folder folder;
   erp::Robot robot = erp::read_robot(ERP_SOURCE_DIR "/configs/arm/robot.xml");
   joints::Names names{robot};
-  reference::JointPlayer player = made();
+  reference::JointPlayer player = make_player();
   node::Latest<erp::JointState> state;
   erp::SensorFrame frame;
 
-  reference::JointPlayer made() {
+  reference::JointPlayer make_player() {
     std::ofstream(folder / "poses.csv")
         << "time_s,shoulder.qw,shoulder.qx,shoulder.qy,shoulder.qz,elbow.angle_rad\n"
            "0,1,0,0,0,0.3\n1,1,0,0,0,1.3\n2,1,0,0,0,1.3\n";
@@ -30,11 +30,12 @@ struct Fixture {
     return {params, robot};
   }
   void place_elbow(double elbow_rad, double elbow_rad_per_s = 0) {
-    Eigen::VectorXd none = Eigen::VectorXd::Zero(4);
+    Eigen::VectorXd variance_rad2 = Eigen::VectorXd::Zero(4);
     std::vector<sim::JointReading> now;
     for (const auto& joint : names.list()) now.push_back(sim::initial_reading(joint));
     now[1].position[0] = elbow_rad, now[1].velocity_rad_per_s[0] = elbow_rad_per_s;
-    names.write(now, none, sim::SkeletonModel(sim::RobotTree(robot), {0, 0, -9.81}), state.message);
+    names.write(now, variance_rad2, sim::SkeletonModel(sim::RobotTree(robot), {0, 0, -9.81}),
+                state.message);
     state.received = true;
     state.message.stamp_ns = frame.stamp_ns;
   }
@@ -46,7 +47,7 @@ struct Fixture {
     REQUIRE(names.read(*target, motions));
     return motions[1];
   }
-  /// Runs periods in which the robot is at the reference of the period before.
+  /// Runs periods in which the robot is at the reference of the previous period.
   sim::JointMotion follow(int periods) {
     sim::JointMotion reference = elbow(0);
     for (int k = 0; k < periods; ++k) {
@@ -73,19 +74,20 @@ TEST_CASE("after missing frames the motion resumes at the robot's position and v
   bench.place_elbow(0.3);
   const auto before = bench.follow(350);
   REQUIRE(before.now.velocity_rad_per_s[0] > 1);
-  bench.place_elbow(0.55, -0.4);  // it fell without a command
+  bench.place_elbow(0.55, -0.4);  // the elbow fell without a command
   const auto after = bench.elbow(0.4);
   CHECK(after.now.velocity_rad_per_s[0] == Approx(-0.4));
-  // The state is 0.4 s old: too old to be extrapolated.
+  // A state of 0.4 s ago is not extrapolated.
   CHECK(after.now.position[0] == Approx(0.55));
   auto last = after;
-  double longest_rad = 0;
+  double largest_change_rad = 0;
   for (int k = 0; k < 1000; ++k) {
     const auto next = bench.follow(1);
-    longest_rad = std::max(longest_rad, std::abs(next.now.position[0] - last.now.position[0]));
+    largest_change_rad =
+        std::max(largest_change_rad, std::abs(next.now.position[0] - last.now.position[0]));
     last = next;
   }
-  CHECK(longest_rad < 0.01);  // of two periods, so there is no jump
+  CHECK(largest_change_rad < 0.01);  // largest change between two periods: no jump
   CHECK(last.now.position[0] == Approx(1.3).margin(1e-6));
 }
 

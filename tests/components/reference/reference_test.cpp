@@ -54,7 +54,7 @@ TEST_CASE("a sine starts at its offset and oscillates by its amplitude") {
 TEST_CASE("the phase of a sweep is half of f0 + f1 times its duration") {
   auto sweep = signal(Shape::sweep);
   sweep.frequency_Hz = 1, sweep.end_frequency_Hz = 3, sweep.duration_s = 2;
-  // 4 whole turns in 2 s: just before the end it is back at the offset.
+  // 4 complete periods in 2 s: at the end the sweep is at its offset again.
   CHECK(sweep.at(3.0 - 1e-9) == Approx(2).margin(1e-4));
   CHECK(sweep.at(3.0) == 2);
 }

@@ -7,8 +7,8 @@
 #include <memory>
 #include <thread>
 
-// The driver on memory that stands for the controller's registers: checks its register accesses against
-// RM0090. It does not check that a controller behaves as the manual states.
+// The driver on memory that replaces the controller's registers. The tests compare its register
+// accesses with RM0090. They do not check that a controller behaves as the manual states.
 namespace {
 
 static_assert(offsetof(bxcan_registers, BTR) == 0x1C);
@@ -40,12 +40,13 @@ class Controller {
   std::thread thread_;
 };
 
-bxcan_registers silent() { return {}; }
+bxcan_registers silent_controller() { return {}; }
 
-/// The driver waits about 0.1 ms for the controller's thread, which may be late on a busy machine.
-bool opens(bxcan_registers& can, std::uint8_t address) {
+/// The driver waits about 0.1 ms for the controller's thread, which may be delayed on a busy
+/// machine.
+bool opens_within_a_minute(bxcan_registers& can, std::uint8_t address) {
   using namespace std::chrono_literals;
-  for (int tries = 0; tries < 60'000; ++tries) {
+  for (int attempts = 0; attempts < 60'000; ++attempts) {
     if (bxcan_open(&can, BXCAN_BTR_1_MBIT_42_MHZ, address)) return true;
     std::this_thread::sleep_for(1ms);
   }
@@ -57,7 +58,7 @@ bool opens(bxcan_registers& can, std::uint8_t address) {
 TEST_CASE("bxcan_open sets the bit timing and filters for the own address and for all ECUs") {
   Controller controller;
   bxcan_registers& can = controller.registers();
-  REQUIRE(opens(can, 0x25));
+  REQUIRE(opens_within_a_minute(can, 0x25));
   CHECK(can.BTR == 0x00290002);  // 42 MHz / 3 / (1 + 10 + 3) = 1 Mbit/s
   CHECK(can.MCR == (1u << 6 | 1u << 5));
   CHECK(can.FMR == 0);
@@ -71,12 +72,12 @@ TEST_CASE("bxcan_open sets the bit timing and filters for the own address and fo
 }
 
 TEST_CASE("bxcan_open fails when the controller does not answer") {
-  auto can = silent();
+  auto can = silent_controller();
   CHECK_FALSE(bxcan_open(&can, BXCAN_BTR_1_MBIT_42_MHZ, 1));
 }
 
 TEST_CASE("a frame is written to the first free mailbox, the transmit request last") {
-  auto can = silent();
+  auto can = silent_controller();
   const bus_frame frame{0x181, 8, {1, 2, 3, 4, 5, 6, 7, 8}};
   CHECK_FALSE(bxcan_send(&can, &frame));  // no mailbox is free
   can.TSR = 1u << 27;                     // the second one is free
@@ -89,7 +90,7 @@ TEST_CASE("a frame is written to the first free mailbox, the transmit request la
 }
 
 TEST_CASE("a received frame is read and released; extended and remote frames are ignored") {
-  auto can = silent();
+  auto can = silent_controller();
   bus_frame frame{};
   CHECK_FALSE(bxcan_receive(&can, &frame));
   can.RFR[0] = 1;
@@ -110,7 +111,7 @@ TEST_CASE("a received frame is read and released; extended and remote frames are
 }
 
 TEST_CASE("bus-off is read from the error register") {
-  auto can = silent();
+  auto can = silent_controller();
   CHECK_FALSE(bxcan_is_off(&can));
   can.ESR = 1u << 2 | 255u << 16;
   CHECK(bxcan_is_off(&can));

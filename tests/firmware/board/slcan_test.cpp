@@ -7,20 +7,20 @@
 
 namespace {
 
-struct Said {
+struct ReceivedEvent {
   slcan_event event;
   bus_frame frame;
 };
-std::vector<Said> receive(slcan_reader& reader, const std::string& text) {
-  std::vector<Said> all;
+std::vector<ReceivedEvent> receive(slcan_reader& reader, const std::string& text) {
+  std::vector<ReceivedEvent> events;
   for (const char c : text) {
     bus_frame frame{};
     const slcan_event event = slcan_take(&reader, std::uint8_t(c), &frame);
-    if (event != SLCAN_NOTHING) all.push_back({event, frame});
+    if (event != SLCAN_NOTHING) events.push_back({event, frame});
   }
-  return all;
+  return events;
 }
-std::string written(const bus_frame& frame) {
+std::string to_text(const bus_frame& frame) {
   char text[SLCAN_LINE_MAX];
   return {text, slcan_write(text, &frame)};
 }
@@ -28,8 +28,8 @@ std::string written(const bus_frame& frame) {
 }  // namespace
 
 TEST_CASE("frames are written as the kernel's slcan writes them") {
-  CHECK(written({0x181, 8, {0, 0x12, 0xAB, 0, 0, 0, 0, 0xFF}}) == "t18180012AB00000000FF\r");
-  CHECK(written({0x7FF, 0, {}}) == "t7FF0\r");
+  CHECK(to_text({0x181, 8, {0, 0x12, 0xAB, 0, 0, 0, 0, 0xFF}}) == "t18180012AB00000000FF\r");
+  CHECK(to_text({0x7FF, 0, {}}) == "t7FF0\r");
 }
 
 TEST_CASE("every frame is unchanged by write and read") {
@@ -38,7 +38,7 @@ TEST_CASE("every frame is unchanged by write and read") {
   for (int k = 0; k < 1000; ++k) {
     bus_frame sent{std::uint16_t(random() % 0x800), std::uint8_t(random() % 9), {}};
     for (int i = 0; i < sent.size; ++i) sent.data[i] = std::uint8_t(random());
-    const auto received = receive(reader, written(sent));
+    const auto received = receive(reader, to_text(sent));
     REQUIRE(received.size() == 1);
     CHECK(received[0].frame.id == sent.id);
     CHECK(received[0].frame.size == sent.size);

@@ -28,12 +28,12 @@ bool same(const bus_frame& a, const bus_frame& b) {
 std::vector<bus_frame> through_bundles(const std::vector<bus_frame>& frames, int& bundles) {
   std::vector<bus_frame> received;
   bundles = 0;
-  for (std::size_t at = 0; at < frames.size(); ++bundles) {
+  for (std::size_t first = 0; first < frames.size(); ++bundles) {
     bus_bundle bundle;
-    at += bundle_pack(&bundle, &frames[at], unsigned(frames.size() - at));
-    bus_frame parts[BUNDLE_FRAMES_MAX];
-    const unsigned count = bundle_unpack(&bundle, parts);
-    received.insert(received.end(), parts, parts + count);
+    first += bundle_pack(&bundle, &frames[first], unsigned(frames.size() - first));
+    bus_frame unpacked[BUNDLE_FRAMES_MAX];
+    const unsigned count = bundle_unpack(&bundle, unpacked);
+    received.insert(received.end(), unpacked, unpacked + count);
   }
   return received;
 }
@@ -73,16 +73,16 @@ TEST_CASE("a bundle has a CAN FD size and the identifier of its first frame") {
 }
 
 TEST_CASE("an invalid bundle contains no frames") {
-  bus_frame parts[BUNDLE_FRAMES_MAX];
+  bus_frame unpacked[BUNDLE_FRAMES_MAX];
   bus_bundle bundle{};
   bundle.size = 9;  // too short for one frame
-  CHECK(bundle_unpack(&bundle, parts) == 0);
+  CHECK(bundle_unpack(&bundle, unpacked) == 0);
   bundle.size = 65;
-  CHECK(bundle_unpack(&bundle, parts) == 0);
+  CHECK(bundle_unpack(&bundle, unpacked) == 0);
   const bus_frame frame = command_to(1);
   bundle_pack(&bundle, &frame, 1);
-  bundle.id ^= 1;  // not the identifier of what is in it
-  CHECK(bundle_unpack(&bundle, parts) == 0);
+  bundle.id ^= 1;  // not the identifier of its first frame
+  CHECK(bundle_unpack(&bundle, unpacked) == 0);
   std::memset(bundle.data, 0xFF, sizeof bundle.data);
-  CHECK(bundle_unpack(&bundle, parts) == 0);
+  CHECK(bundle_unpack(&bundle, unpacked) == 0);
 }

@@ -11,7 +11,7 @@ using Gains = std::array<float, ECU_PARAMETER_COUNT>;
 
 inline constexpr float pi = 3.14159265f;
 
-/// The published motor on the rig's sensors: 2048 counts a motor turn, gear 128, 12 bits.
+/// The published motor on the rig's sensors: 2048 counts per motor turn, gear 128, 12 bits.
 inline Gains rig_gains() {
   Gains g{};
   g[ECU_PARAMETER_SUPPLY] = 12;
@@ -40,7 +40,7 @@ inline Gains rig_gains() {
 }
 
 /// The same with all sensors that an ECU supports: a live zero of 10 %, a ten-turn potentiometer
-/// of 12 bits, a winding's temperature of 0.1 degrees a count, the supply.
+/// of 12 bits, a winding temperature sensor of 0.1 degrees per count, a supply sensor.
 inline Gains fitted_gains() {
   Gains g = rig_gains();
   g[ECU_PARAMETER_TENSION_ZERO] = 410;
@@ -60,7 +60,7 @@ inline Gains fitted_gains() {
   return g;
 }
 
-/// Writes a whole set; returns the result of the commit.
+/// Writes a complete set; returns the result of the commit.
 inline bool load(ecu_channel& channel, const Gains& gains) {
   bool accepted = false;
   for (std::uint8_t i = 0; i < ECU_PARAMETER_COUNT; ++i)

@@ -10,11 +10,11 @@ namespace {
 
 std::mt19937 random_bits(1);
 int pick(int low, int high) { return std::uniform_int_distribution(low, high)(random_bits); }
-bool coin() { return pick(0, 1) == 1; }
-std::uint8_t octet(int low, int high) { return std::uint8_t(pick(low, high)); }
+bool random_bool() { return pick(0, 1) == 1; }
+std::uint8_t random_byte(int low, int high) { return std::uint8_t(pick(low, high)); }
 int pick_setpoint() {
   const int edge[] = {0, FRAME_SETPOINT_MAX, -FRAME_SETPOINT_MAX, FRAME_SETPOINT_REFUSED};
-  return coin() ? pick(-FRAME_SETPOINT_MAX, FRAME_SETPOINT_MAX) : edge[pick(0, 3)];
+  return random_bool() ? pick(-FRAME_SETPOINT_MAX, FRAME_SETPOINT_MAX) : edge[pick(0, 3)];
 }
 
 frame_status random_status() {
@@ -22,20 +22,20 @@ frame_status random_status() {
   s.encoder_low = std::uint16_t(pick(0, 65535));
   s.current_counts = std::int16_t(pick(-2048, 2047));
   s.tension_counts = std::uint16_t(pick(0, 4095));
-  s.state = octet(0, ECU_STATE_COUNT - 1);
+  s.state = random_byte(0, ECU_STATE_COUNT - 1);
   const bool running = s.state == ECU_STATE_RUNNING;
   s.duty = std::int16_t(running ? pick(-ECU_DUTY_MAX, ECU_DUTY_MAX) : 0);
-  s.fault = running ? 0 : octet(0, 15);
-  s.request = running ? FRAME_REQUEST_NONE : octet(0, 7);
-  s.warning = !running && coin();
-  s.follows = coin();
-  s.counter = octet(0, 7);
+  s.fault = running ? 0 : random_byte(0, 15);
+  s.request = running ? FRAME_REQUEST_NONE : random_byte(0, 7);
+  s.warning = !running && random_bool();
+  s.follows = random_bool();
+  s.counter = random_byte(0, 7);
   return s;
 }
 
 /// One intact frame of every function.
-std::vector<bus_frame> one_of_each(std::uint8_t ecu) {
-  std::vector<bus_frame> all(8);
+std::vector<bus_frame> one_frame_of_each(std::uint8_t ecu) {
+  std::vector<bus_frame> frames(8);
   const frame_emergency emergency{false, 1, ECU_FAULT_OVER_TENSION, 0, FRAME_VERSION, 77};
   const frame_command command{{{ECU_REQUEST_FORCE, 40000}, {ECU_REQUEST_LENGTH, -5}}, 3, 1};
   const frame_status status = random_status();
@@ -43,15 +43,15 @@ std::vector<bus_frame> one_of_each(std::uint8_t ecu) {
   const frame_health position{.page = 0, .counter = 2, .encoder_counts = -123456789};
   const frame_health followed{.page = 1, .request = 6, .setpoint = 40000};
   const frame_parameter parameter{1, 7, true, 21, 3.5f};
-  frame_pack_emergency(&all[0], ecu, &emergency);
-  frame_pack_command(&all[1], ecu, &command);
-  frame_pack_status(&all[2], ecu, 0, &status);
-  frame_pack_status(&all[3], ecu, 1, &status);
-  frame_pack_analog(&all[4], ecu, &analog);
-  frame_pack_health(&all[5], ecu, 0, &position);
-  frame_pack_health(&all[6], ecu, 1, &followed);
-  frame_pack_parameter(&all[7], ecu, &parameter);
-  return all;
+  frame_pack_emergency(&frames[0], ecu, &emergency);
+  frame_pack_command(&frames[1], ecu, &command);
+  frame_pack_status(&frames[2], ecu, 0, &status);
+  frame_pack_status(&frames[3], ecu, 1, &status);
+  frame_pack_analog(&frames[4], ecu, &analog);
+  frame_pack_health(&frames[5], ecu, 0, &position);
+  frame_pack_health(&frames[6], ecu, 1, &followed);
+  frame_pack_parameter(&frames[7], ecu, &parameter);
+  return frames;
 }
 
 void flip(bus_frame& frame, int bit) {
@@ -74,11 +74,12 @@ bool any_unpacks(const bus_frame& f) {
 
 TEST_CASE("a command is unchanged by pack and unpack") {
   for (int n = 0; n < 2000; ++n) {
-    frame_command in{
-        {{octet(0, 7), pick_setpoint()}, {octet(0, 7), pick_setpoint()}}, octet(0, 7), octet(0, 7)},
+    frame_command in{{{random_byte(0, 7), pick_setpoint()}, {random_byte(0, 7), pick_setpoint()}},
+                     random_byte(0, 7),
+                     random_byte(0, 7)},
         out{};
     bus_frame frame;
-    const auto ecu = octet(0, 127);
+    const auto ecu = random_byte(0, 127);
     frame_pack_command(&frame, ecu, &in);
     REQUIRE(frame_unpack_command(&frame, &out));
     CHECK(frame_ecu_of(&frame) == ecu);
@@ -108,8 +109,8 @@ TEST_CASE("a status is unchanged by pack and unpack, in every state") {
     const frame_status in = random_status();
     frame_status out{};
     bus_frame frame;
-    const auto channel = octet(0, 1);
-    frame_pack_status(&frame, octet(0, 127), channel, &in);
+    const auto channel = random_byte(0, 1);
+    frame_pack_status(&frame, random_byte(0, 127), channel, &in);
     REQUIRE(frame_unpack_status(&frame, &out));
     CHECK(frame_function_of(&frame) == (channel ? FRAME_STATUS_1 : FRAME_STATUS_0));
     CHECK(out.encoder_low == in.encoder_low);
@@ -140,8 +141,10 @@ TEST_CASE("a status saturates values outside the converter range") {
 TEST_CASE("analog, health, parameter and emergency frames are unchanged by pack and unpack") {
   for (int n = 0; n < 2000; ++n) {
     bus_frame frame;
-    const frame_analog a{
-        octet(0, 1), octet(0, 3), {pick(-8388608, 8388607), pick(-8388608, 8388607)}, octet(0, 7)};
+    const frame_analog a{random_byte(0, 1),
+                         random_byte(0, 3),
+                         {pick(-8388608, 8388607), pick(-8388608, 8388607)},
+                         random_byte(0, 7)};
     frame_analog a_out{};
     frame_pack_analog(&frame, 9, &a);
     REQUIRE(frame_unpack_analog(&frame, &a_out));
@@ -149,33 +152,34 @@ TEST_CASE("analog, health, parameter and emergency frames are unchanged by pack 
           std::tie(a_out.page, a_out.present, a_out.counts[0], a_out.counts[1], a_out.counter));
 
     const frame_health p{.page = 0,
-                         .counter = octet(0, 7),
+                         .counter = random_byte(0, 7),
                          .encoder_counts = pick(INT32_MIN, INT32_MAX),
-                         .warning = coin(),
-                         .lost = octet(0, 255),
-                         .corrupt = octet(0, 255)};
+                         .warning = random_bool(),
+                         .lost = random_byte(0, 255),
+                         .corrupt = random_byte(0, 255)};
     frame_health p_out{};
-    frame_pack_health(&frame, 9, octet(0, 1), &p);
+    frame_pack_health(&frame, 9, random_byte(0, 1), &p);
     REQUIRE(frame_unpack_health(&frame, &p_out));
     CHECK(std::tie(p.page, p.counter, p.encoder_counts, p.warning, p.lost, p.corrupt) ==
           std::tie(p_out.page, p_out.counter, p_out.encoder_counts, p_out.warning, p_out.lost,
                    p_out.corrupt));
 
     const frame_health f{.page = 1,
-                         .counter = octet(0, 7),
-                         .request = octet(0, 7),
+                         .counter = random_byte(0, 7),
+                         .request = random_byte(0, 7),
                          .setpoint = pick_setpoint(),
                          .rejected = std::uint16_t(pick(0, 65535)),
-                         .refused_gain_sets = octet(0, 255)};
+                         .refused_gain_sets = random_byte(0, 255)};
     frame_health f_out{};
-    frame_pack_health(&frame, 9, octet(0, 1), &f);
+    frame_pack_health(&frame, 9, random_byte(0, 1), &f);
     REQUIRE(frame_unpack_health(&frame, &f_out));
     CHECK(std::tie(f.page, f.counter, f.request, f.setpoint, f.rejected, f.refused_gain_sets) ==
           std::tie(f_out.page, f_out.counter, f_out.request, f_out.setpoint, f_out.rejected,
                    f_out.refused_gain_sets));
 
     const auto bits = random_bits();
-    frame_parameter g{octet(0, 1), octet(0, 63), coin(), octet(0, 255), 0}, g_out{};
+    frame_parameter g{random_byte(0, 1), random_byte(0, 63), random_bool(), random_byte(0, 255), 0},
+        g_out{};
     std::memcpy(&g.value, &bits, 4);
     frame_pack_parameter(&frame, 9, &g);
     REQUIRE(frame_unpack_parameter(&frame, &g_out));
@@ -183,8 +187,8 @@ TEST_CASE("analog, health, parameter and emergency frames are unchanged by pack 
           std::tie(g_out.channel, g_out.index, g_out.commit, g_out.position));
     CHECK(std::memcmp(&g.value, &g_out.value, 4) == 0);
 
-    const frame_emergency e{coin(),       octet(0, 1),  octet(0, 15),
-                            octet(0, 15), octet(0, 63), std::uint32_t(random_bits())};
+    const frame_emergency e{random_bool(),      random_byte(0, 1),  random_byte(0, 15),
+                            random_byte(0, 15), random_byte(0, 63), std::uint32_t(random_bits())};
     frame_emergency e_out{};
     frame_pack_emergency(&frame, 9, &e);
     REQUIRE(frame_unpack_emergency(&frame, &e_out));
@@ -195,7 +199,7 @@ TEST_CASE("analog, health, parameter and emergency frames are unchanged by pack 
 }
 
 TEST_CASE("a frame with one flipped bit, in data or identifier, is rejected") {
-  for (const bus_frame& good : one_of_each(77)) {
+  for (const bus_frame& good : one_frame_of_each(77)) {
     REQUIRE(any_unpacks(good));
     for (int bit = 0; bit < 64; ++bit) {
       bus_frame bad = good;
@@ -213,7 +217,7 @@ TEST_CASE("a frame with one flipped bit, in data or identifier, is rejected") {
 }
 
 TEST_CASE("a frame with up to three flipped bits is rejected") {
-  for (const bus_frame& good : one_of_each(5))
+  for (const bus_frame& good : one_frame_of_each(5))
     for (int a = 0; a < 64; ++a)
       for (int b = a; b < 64; ++b)
         for (int c = b; c < 64; c += 3) {
@@ -225,7 +229,7 @@ TEST_CASE("a frame with up to three flipped bits is rejected") {
 }
 
 TEST_CASE("a frame of another length is rejected") {
-  for (bus_frame frame : one_of_each(5))
+  for (bus_frame frame : one_frame_of_each(5))
     for (int size : {0, 1, 7, 9, 255}) {
       frame.size = std::uint8_t(size);
       CHECK_FALSE(any_unpacks(frame));
@@ -235,8 +239,8 @@ TEST_CASE("a frame of another length is rejected") {
 TEST_CASE("the check value is AUTOSAR's CRC-8 with polynomial 0x2F") {
   const std::uint8_t text[] = {'1', '2', '3', '4', '5', '6', '7', '8', '9'};
   CHECK(frame_crc8(text, 9) == 0xDF);  // specification of the CRC library, 7.2.1.2
-  const std::uint8_t covered[] = {0x31, 0x03, 1, 2, 3, 4, 5, 6, 7};
-  const bus_frame frame{0x0331, 8, {1, 2, 3, 4, 5, 6, 7, frame_crc8(covered, 9)}};
+  const std::uint8_t checked_bytes[] = {0x31, 0x03, 1, 2, 3, 4, 5, 6, 7};
+  const bus_frame frame{0x0331, 8, {1, 2, 3, 4, 5, 6, 7, frame_crc8(checked_bytes, 9)}};
   CHECK(frame_is_intact(&frame));
 }
 

@@ -10,7 +10,7 @@ namespace {
 const float not_a_number = std::numeric_limits<float>::quiet_NaN();
 const float infinity = std::numeric_limits<float>::infinity();
 
-bool in_force(const ecu_channel& channel, const Gains& gains) {
+bool are_in_effect(const ecu_channel& channel, const Gains& gains) {
   return std::equal(gains.begin(), gains.end(), channel.gains);
 }
 }  // namespace
@@ -33,13 +33,13 @@ TEST_CASE("a channel leaves boot only after every gain has been written") {
   }
 }
 
-TEST_CASE("an incomplete gain set is never used") {
+TEST_CASE("an incomplete gain set has no effect") {
   ecu_channel channel = in_state(ECU_STATE_RUNNING);
   const Gains before = rig_gains();
   for (std::uint8_t i = 0; i + 1 < ECU_PARAMETER_COUNT; ++i) {
     CHECK(ecu_parameter(&channel, i, before[i] * 1.5f, false));
     tick(channel);
-    CHECK(in_force(channel, before));
+    CHECK(are_in_effect(channel, before));
   }
 }
 
@@ -51,7 +51,7 @@ TEST_CASE(
     CHECK(ecu_parameter(&channel, ECU_PARAMETER_LENGTH_KP, 10, false));
     CHECK_FALSE(ecu_parameter(&channel, ECU_PARAMETER_CURRENT_KP, bad, false));
     CHECK_FALSE(ecu_parameter(&channel, ECU_PARAMETER_CURRENT_KI, 7, true));
-    CHECK(in_force(channel, before));
+    CHECK(are_in_effect(channel, before));
     CHECK(ecu_parameter(&channel, ECU_PARAMETER_CURRENT_KI, 50, true));
     CHECK(channel.gains[ECU_PARAMETER_CURRENT_KI] == 50);
     CHECK(channel.gains[ECU_PARAMETER_LENGTH_KP] == before[ECU_PARAMETER_LENGTH_KP]);
@@ -65,7 +65,7 @@ TEST_CASE("a parameter that does not exist is refused") {
 }
 
 TEST_CASE("an implausible set of gains is refused") {
-  const std::pair<ecu_parameter_index, float> insane[] = {
+  const std::pair<ecu_parameter_index, float> implausible[] = {
       {ECU_PARAMETER_SUPPLY, 0},
       {ECU_PARAMETER_SUPPLY, -12},
       {ECU_PARAMETER_SHAFT_SCALE, 0},
@@ -86,7 +86,7 @@ TEST_CASE("an implausible set of gains is refused") {
       {ECU_PARAMETER_CURRENT_KI, -1},
       {ECU_PARAMETER_CURRENT_KD, -1},
   };
-  for (const auto& [index, value] : insane) {
+  for (const auto& [index, value] : implausible) {
     INFO("parameter " << index << " = " << value);
     Gains gains = rig_gains();
     gains[index] = value;

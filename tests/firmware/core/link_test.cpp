@@ -36,12 +36,12 @@ struct Ecu {
   }
   bool receive(const bus_frame& frame) { return ecu_link_receive(&link, &frame); }
 
-  std::vector<bus_frame> frames(bool whole = false) {
+  std::vector<bus_frame> frames(bool all_pages = false) {
     ecu_link_tick(&link);
     const ecu_report report{{ecu_reading_of(&channel[0]), ecu_reading_of(&channel[1])},
                             {11, 22, 33, 44}};
     std::vector<bus_frame> frames(ECU_LINK_FRAMES_MAX);
-    frames.resize(ecu_link_pack(&link, &report, whole, frames.data()));
+    frames.resize(ecu_link_pack(&link, &report, all_pages, frames.data()));
     return frames;
   }
 };
@@ -54,7 +54,7 @@ int count(const std::vector<bus_frame>& frames, frame_function function) {
 
 }  // namespace
 
-TEST_CASE("a command acts on the channels it addresses and on no others") {
+TEST_CASE("a command acts only on the channels that it addresses") {
   Ecu ecu;
   CHECK(ecu.command(1, 2000));
   CHECK(ecu.channel[0].setpoint == 2000);
@@ -67,19 +67,19 @@ TEST_CASE("frames for other ECUs and frames from ECUs are ignored") {
   const frame_command content{{{ECU_REQUEST_OFF, 0}, {ECU_REQUEST_OFF, 0}}, 1, 0};
   frame_pack_command(&frame, 13, &content);
   CHECK_FALSE(ecu.receive(frame));
-  for (const bus_frame& own : ecu.frames(true)) CHECK_FALSE(ecu.receive(own));
+  for (const bus_frame& own_frame : ecu.frames(true)) CHECK_FALSE(ecu.receive(own_frame));
   CHECK(ecu.link.corrupt == 0);
   CHECK(ecu.channel[0].state == ECU_STATE_RUNNING);
 }
 
-TEST_CASE("a sender that repeats one frame does not reset the watchdog") {
+TEST_CASE("a repeated command does not reset the command timeout") {
   Ecu ecu;
   for (int i = 0; i < 26; ++i) ecu.command(1, 1200), tick(ecu.channel[0]);
   CHECK(ecu.channel[0].fault == ECU_FAULT_COMMAND_TIMEOUT);
   CHECK(ecu.link.repeated == 25);
 }
 
-TEST_CASE("a late command is dropped and counted; lost commands are counted") {
+TEST_CASE("an outdated command is dropped and counted; lost commands are counted") {
   Ecu ecu;
   CHECK(ecu.command(5, 2000));
   CHECK_FALSE(ecu.command(4, 3000));
@@ -92,7 +92,7 @@ TEST_CASE("a late command is dropped and counted; lost commands are counted") {
   CHECK(ecu.link.lost == 2);
 }
 
-TEST_CASE("the older of two reordered commands is late, independent of `answers`") {
+TEST_CASE("the older of two reordered commands is dropped, independent of `answers`") {
   Ecu ecu;
   CHECK(ecu.command(2, 2000, 0));
   CHECK_FALSE(ecu.command(1, 3000, 5));  // computed from a STATUS three periods older
@@ -111,7 +111,7 @@ TEST_CASE("a tick is answered only by the command that carries its counter") {
   CHECK_FALSE(ecu.link.answered);
 }
 
-TEST_CASE("five corrupt frames in a row trip both channels; four and a valid one do not") {
+TEST_CASE("five consecutive corrupt frames trip both channels; four and a valid one do not") {
   Ecu ecu;
   bus_frame bad = Ecu::packed(1, 2000);
   bad.data[3] ^= 0x10;
@@ -126,7 +126,7 @@ TEST_CASE("five corrupt frames in a row trip both channels; four and a valid one
   CHECK(ecu.link.corrupt == 17);
 }
 
-TEST_CASE("a gain set with one lost frame is refused as a whole, wherever the gap is") {
+TEST_CASE("a gain set with one lost frame at any position is refused as a whole") {
   for (std::uint8_t lost = 0; lost < 3; ++lost) {
     INFO("lost frame " << int(lost));
     Ecu ecu;
@@ -153,7 +153,7 @@ TEST_CASE("a gain set is accepted when every frame arrives twice") {
   CHECK(ecu.channel[0].rejected_commits == 0);
 }
 
-TEST_CASE("a period is sent as analog inputs and, last, one status per channel") {
+TEST_CASE("a period is sent as the analog inputs followed by one status per channel") {
   Ecu ecu;
   const auto frames = ecu.frames();
   REQUIRE(frames.size() == 4);
@@ -207,7 +207,7 @@ TEST_CASE("a boot is sent with its cause and the version of the layout") {
   CHECK(content.version == FRAME_VERSION);
 }
 
-TEST_CASE("frames of random bytes do not drive a channel") {
+TEST_CASE("frames of random bytes are rejected") {
   Ecu ecu;
   std::mt19937 random_bits(2);
   for (int n = 0; n < 200000; ++n) {
@@ -218,14 +218,14 @@ TEST_CASE("frames of random bytes do not drive a channel") {
 }
 
 TEST_CASE("an ECU with one channel accepts a frame for two") {
-  ecu_channel only = in_state(ECU_STATE_RUNNING);
+  ecu_channel channel = in_state(ECU_STATE_RUNNING);
   ecu_link link;
-  ecu_link_init(&link, 12, nullptr, &only, 0);
+  ecu_link_init(&link, 12, nullptr, &channel, 0);
   const frame_command content{{{ECU_REQUEST_VOLTAGE, 1}, {ECU_REQUEST_VOLTAGE, 2}}, 0, 0};
   bus_frame frame;
   frame_pack_command(&frame, 12, &content);
   CHECK(ecu_link_receive(&link, &frame));
-  CHECK(only.setpoint == 2);
+  CHECK(channel.setpoint == 2);
 }
 
 TEST_CASE("after a DISCOVER an ECU sends HELLO and every HEALTH page once") {

@@ -8,8 +8,8 @@ using namespace firmware;
 
 namespace {
 
-/// State feedback on (i, w, F) at 500 Hz for the tiny motor on its spring: poles at -40 and
-/// -60 s^-1 and z = 0 (the electrical one), by Ackermann's formula on the exact discretisation.
+/// State feedback on (i, w, F) at 500 Hz for TinyMotor on its spring: poles at -40 and
+/// -60 s^-1, and the electrical pole at z = 0, by Ackermann's formula on the exact discretisation.
 Gains with_force_gains() {
   Gains g = rig_gains();
   g[ECU_PARAMETER_FORCE_K_CURRENT] = -0.00404799f;
@@ -41,7 +41,9 @@ struct Loop {
 
 }  // namespace
 
-TEST_CASE("force control steps from 2 to 40 N as fast as the paper's robot and stays there") {
+TEST_CASE(
+    "a force step from 2 to 40 N rises as fast as on the paper's robot and stays within its RMS "
+    "error") {
   Loop loop;
   loop.follow(ECU_REQUEST_FORCE, 2000, 1.0);
   CHECK(loop.motor.tension_N() == Approx(2).margin(0.3));
@@ -60,31 +62,31 @@ TEST_CASE("force control steps from 2 to 40 N as fast as the paper's robot and s
   CHECK(peak_N < 42);
 }
 
-TEST_CASE("force control decreases the tension as well as it increases it") {
+TEST_CASE("force control decreases the tension from 60 to 10 N within 0.3 N") {
   Loop loop;
   loop.follow(ECU_REQUEST_FORCE, 60000, 1.0);
   loop.follow(ECU_REQUEST_FORCE, 10000, 1.0);
   CHECK(loop.motor.tension_N() == Approx(10).margin(0.3));
 }
 
-TEST_CASE("length control reaches its angle against the spring, with the error given by the load") {
+TEST_CASE("length control against a spring has the steady-state error of a P law under its load") {
   Loop loop;
   const double scale = 2 * TinyMotor::pi / (2048 * 128);
   loop.follow(ECU_REQUEST_LENGTH, std::lround(1.0 / scale), 2.0);
-  // Settled: kp (1 - shaft) = R i, with i between what holds r F against friction and with it.
+  // At rest kp (1 - shaft) = R i. The current i holds r F, plus or minus friction.
   const double kp = rig_gains()[ECU_PARAMETER_LENGTH_KP],
                load_Nm = TinyMotor::r * loop.motor.tension_N();
-  const double per_Nm = TinyMotor::R / (TinyMotor::K * TinyMotor::N * TinyMotor::eta) / kp;
-  const double missing_rad = 1.0 - loop.motor.shaft_rad;
+  const double rad_per_Nm = TinyMotor::R / (TinyMotor::K * TinyMotor::N * TinyMotor::eta) / kp;
+  const double error_rad = 1.0 - loop.motor.shaft_rad;
   CHECK(loop.motor.w_rad_per_s == 0);
-  CHECK(missing_rad > (load_Nm - TinyMotor::tau_c) * per_Nm - 5e-4);
-  CHECK(missing_rad < (load_Nm + TinyMotor::tau_c) * per_Nm + 5e-4);
+  CHECK(error_rad > (load_Nm - TinyMotor::tau_c) * rad_per_Nm - 5e-4);
+  CHECK(error_rad < (load_Nm + TinyMotor::tau_c) * rad_per_Nm + 5e-4);
 }
 
 TEST_CASE("current control has no steady-state error at standstill") {
   Loop loop;
-  // A constant current removes the damping of the back-EMF: the motor oscillates on its spring until
-  // friction stops it.
+  // A constant current removes the damping of the back-EMF: the motor oscillates on its spring
+  // until friction stops it.
   loop.follow(ECU_REQUEST_CURRENT, 300, 12.0);
   CHECK(loop.motor.w_rad_per_s == Approx(0).margin(1e-3));
   CHECK(loop.motor.i_A == Approx(0.3).margin(0.02));
@@ -97,7 +99,7 @@ TEST_CASE("the motor current stays within the limit during a full reversal") {
   loop.follow(ECU_REQUEST_VOLTAGE, 12000, 0.1);
   INFO("peak " << loop.motor.peak_A << " A");
   CHECK(loop.motor.peak_A <
-        4.5);  // the speed changes within a period: some tenths above the 4 A limit
+        4.5);  // some tenths above the limit of 4 A, because the speed changes within a period
   CHECK(loop.channel.state == ECU_STATE_RUNNING);
 }
 

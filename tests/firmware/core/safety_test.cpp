@@ -33,7 +33,7 @@ TEST_CASE("a command every 48 ms keeps a channel running") {
   }
 }
 
-TEST_CASE("a clear request does not reset the watchdog of a running channel") {
+TEST_CASE("a clear request does not reset the command timeout of a running channel") {
   ecu_channel channel = in_state(ECU_STATE_RUNNING);
   for (int i = 0; i < 26; ++i) ecu_command(&channel, ECU_REQUEST_CLEAR, 0), tick(channel);
   CHECK(channel.fault == ECU_FAULT_COMMAND_TIMEOUT);
@@ -56,7 +56,7 @@ TEST_CASE("a fault latches until it is cleared, and keeps its first cause") {
   CHECK(channel.fault == ECU_FAULT_NONE);
 }
 
-TEST_CASE("after a fault the old set-point is discarded: armed again, the channel waits at PWM 0") {
+TEST_CASE("after a fault the old set-point is discarded: PWM is 0 after the next arming") {
   ecu_channel channel = in_state(ECU_STATE_RUNNING);
   tick(channel);
   ecu_trip(&channel, ECU_FAULT_OVER_TENSION);
@@ -144,7 +144,7 @@ TEST_CASE("set-points outside the limits are rejected; those at the limit are ac
   }
 }
 
-TEST_CASE("after a rejected set-point the old one stays and times out") {
+TEST_CASE("after a rejected set-point the old one remains in effect until it times out") {
   ecu_channel channel = in_state(ECU_STATE_RUNNING);
   for (int i = 0; i < 25; ++i) {
     if (i % 8 == 7) CHECK_FALSE(ecu_command(&channel, ECU_REQUEST_VOLTAGE, 13000));
@@ -154,7 +154,7 @@ TEST_CASE("after a rejected set-point the old one stays and times out") {
   CHECK(channel.fault == ECU_FAULT_COMMAND_TIMEOUT);
 }
 
-TEST_CASE("five invalid set-points in a row trip; four and a valid one do not") {
+TEST_CASE("five consecutive invalid set-points trip; four and a valid one do not") {
   ecu_channel channel = in_state(ECU_STATE_RUNNING);
   for (int round = 0; round < 3; ++round) {
     for (int i = 0; i < 4; ++i) ecu_command(&channel, ECU_REQUEST_FORCE, -1000);
@@ -172,7 +172,8 @@ TEST_CASE("the predictive current limit holds at standstill for any set-point") 
   CHECK(steady_A == Approx(4).epsilon(0.01));
 }
 
-TEST_CASE("speed is taken from the encoder over one period, through the wrap of its counter") {
+TEST_CASE(
+    "the speed is the encoder difference over one period, also across the wrap of its counter") {
   ecu_channel channel = in_state(ECU_STATE_RUNNING);
   tick(channel, {INT32_MAX - 100, 0, 0});
   tick(channel, {INT32_MIN + 99, 0, 0});  // 200 counts further

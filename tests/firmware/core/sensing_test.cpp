@@ -3,19 +3,19 @@
 
 #include "tests/firmware/core/channel.hpp"
 
-// Faulty sensors, and working sensors that look faulty.
+// Faulty sensors must trip; working sensors with unusual readings must not.
 using namespace firmware;
 
 namespace {
 
 /// A channel driven at 3 V, its shaft at 2 rad/s according to the motor equation, with noise on its
 /// converters. Each reading can be replaced.
-struct Turning {
+struct TurningMotor {
   ecu_channel channel = in_state(ECU_STATE_RUNNING, fitted_gains());
   std::mt19937 random{1};
   std::normal_distribution<float> noise{0, 1};
   float shaft_rad = 0, current_A = 0.1f, tension_N = 20, speed_rad_per_s = 2;
-  ecu_inputs last{};
+  ecu_inputs last_inputs{};
 
   ecu_inputs read() {
     const Gains g = fitted_gains();
@@ -30,35 +30,35 @@ struct Turning {
 
   /// Continues with one reading changed; returns the tick of the trip, 0: no trip.
   template <class Change>
-  int trips_within(int ticks, Change change) {
+  int trip_tick(int ticks, Change change) {
     for (int k = 1; k <= ticks; ++k) {
       ecu_command(&channel, ECU_REQUEST_VOLTAGE, 3000);
       ecu_inputs inputs = read();
       change(inputs);
       tick(channel, inputs);
-      last = inputs;
+      last_inputs = inputs;
       if (channel.state == ECU_STATE_FAULT) return k;
     }
     return 0;
   }
-  int runs_on(int ticks) {
-    return trips_within(ticks, [](ecu_inputs&) {});
+  int run_unchanged(int ticks) {
+    return trip_tick(ticks, [](ecu_inputs&) {});
   }
 };
 
 }  // namespace
 
 TEST_CASE("working sensors that agree do not trip") {
-  Turning motor;
-  CHECK(motor.runs_on(5000) == 0);
+  TurningMotor motor;
+  CHECK(motor.run_unchanged(5000) == 0);
 }
 
 TEST_CASE("an open or shorted force sensor trips at the third sample") {
   for (const std::uint16_t rail : {std::uint16_t(4095), std::uint16_t(0), std::uint16_t(200)}) {
     INFO("at " << rail);
-    Turning motor;
-    motor.runs_on(100);
-    CHECK(motor.trips_within(10, [&](ecu_inputs& in) { in.tension_counts = rail; }) == 3);
+    TurningMotor motor;
+    motor.run_unchanged(100);
+    CHECK(motor.trip_tick(10, [&](ecu_inputs& in) { in.tension_counts = rail; }) == 3);
     CHECK(motor.channel.fault == ECU_FAULT_SENSOR_RANGE);
     CHECK(motor.channel.request == ECU_REQUEST_OFF);
     CHECK(motor.channel.sensed.tension_N == Approx(20).margin(0.3));
@@ -66,58 +66,58 @@ TEST_CASE("an open or shorted force sensor trips at the third sample") {
 }
 
 TEST_CASE("a reading at or slightly below the live zero is tension 0") {
-  Turning motor;
+  TurningMotor motor;
   motor.tension_N = -1;
-  CHECK(motor.runs_on(500) == 0);
+  CHECK(motor.run_unchanged(500) == 0);
   CHECK(motor.channel.sensed.tension_N == 0);
 }
 
 TEST_CASE("a constant reading of 0 without live zero is a slack tendon, not a stuck sensor") {
-  Turning motor;
+  TurningMotor motor;
   Gains gains = fitted_gains();
   gains[ECU_PARAMETER_TENSION_ZERO] = 0;
   load(motor.channel, gains);
-  CHECK(motor.trips_within(500, [](ecu_inputs& in) { in.tension_counts = 0; }) == 0);
+  CHECK(motor.trip_tick(500, [](ecu_inputs& in) { in.tension_counts = 0; }) == 0);
 }
 
 TEST_CASE("a frozen converter trips after 100 ms of rotation") {
-  Turning current, tension;
-  CHECK(current.trips_within(100, [](ecu_inputs& in) { in.current_counts = 25; }) == 51);
+  TurningMotor current, tension;
+  CHECK(current.trip_tick(100, [](ecu_inputs& in) { in.current_counts = 25; }) == 51);
   CHECK(current.channel.fault == ECU_FAULT_SENSOR_STUCK);
-  CHECK(tension.trips_within(100, [](ecu_inputs& in) { in.tension_counts = 800; }) == 51);
+  CHECK(tension.trip_tick(100, [](ecu_inputs& in) { in.tension_counts = 800; }) == 51);
   CHECK(tension.channel.fault == ECU_FAULT_SENSOR_STUCK);
 }
 
 TEST_CASE("a constant reading is accepted while the shaft is at rest") {
-  Turning motor;
+  TurningMotor motor;
   motor.speed_rad_per_s = 0.4f;
-  motor.trips_within(500, [](ecu_inputs& in) { in.tension_counts = 800; });
+  motor.trip_tick(500, [](ecu_inputs& in) { in.tension_counts = 800; });
   CHECK(motor.channel.fault != ECU_FAULT_SENSOR_STUCK);
 }
 
 TEST_CASE("a constant reading is accepted if the stuck check is disabled") {
-  Turning motor;
+  TurningMotor motor;
   Gains gains = fitted_gains();
   gains[ECU_PARAMETER_TENSION_STUCK_SPEED] = 0;
   load(motor.channel, gains);
-  CHECK(motor.trips_within(500, [](ecu_inputs& in) { in.tension_counts = 800; }) == 0);
+  CHECK(motor.trip_tick(500, [](ecu_inputs& in) { in.tension_counts = 800; }) == 0);
 }
 
 TEST_CASE("an encoder with a lost phase trips within 50 ms of driving, in both directions") {
-  for (const bool winds : {true, false}) {
-    Turning motor;
-    motor.speed_rad_per_s = winds ? 2.0f : -2.0f;
+  for (const bool winding_up : {true, false}) {
+    TurningMotor motor;
+    motor.speed_rad_per_s = winding_up ? 2.0f : -2.0f;
     Gains gains = fitted_gains();
     gains[ECU_PARAMETER_WIPER_TOLERANCE] = 0;  // only the motor equation can detect it
     load(motor.channel, gains);
     int k = 0;
-    const auto dithers = [&](ecu_inputs& in) { in.encoder_counts = 1000 + (++k % 2); };
-    const auto command = winds ? 3000 : -3000;
+    const auto jitter = [&](ecu_inputs& in) { in.encoder_counts = 1000 + (++k % 2); };
+    const auto command = winding_up ? 3000 : -3000;
     int tripped = 0;
     for (int n = 1; n < 60 && !tripped; ++n) {
       ecu_command(&motor.channel, ECU_REQUEST_VOLTAGE, command);
       ecu_inputs in = motor.read();
-      dithers(in);
+      jitter(in);
       tick(motor.channel, in);
       if (motor.channel.state == ECU_STATE_FAULT) tripped = n;
     }
@@ -127,8 +127,8 @@ TEST_CASE("an encoder with a lost phase trips within 50 ms of driving, in both d
 }
 
 TEST_CASE("a motor stalled at its current limit is not reported as an encoder fault") {
-  for (const float resistance : {0.516f, 0.88f}) {  // the gains say 0.516
-    Turning motor;
+  for (const float resistance : {0.516f, 0.88f}) {  // the gains contain 0.516
+    TurningMotor motor;
     motor.speed_rad_per_s = 0;
     int tripped = 0;
     for (int n = 0; n < 200 && !tripped; ++n) {
@@ -144,20 +144,20 @@ TEST_CASE("a motor stalled at its current limit is not reported as an encoder fa
 }
 
 TEST_CASE("an encoder that slips is detected by the potentiometer") {
-  Turning motor;
-  motor.runs_on(100);
+  TurningMotor motor;
+  motor.run_unchanged(100);
   const float scale = fitted_gains()[ECU_PARAMETER_SHAFT_SCALE];
   const auto slipped = [&](ecu_inputs& in) { in.encoder_counts -= std::int32_t(0.2f / scale); };
-  CHECK(motor.trips_within(100, slipped) == 25);
+  CHECK(motor.trip_tick(100, slipped) == 25);
   CHECK(motor.channel.fault == ECU_FAULT_POTENTIOMETER);
   ecu_command(&motor.channel, ECU_REQUEST_CLEAR, motor.channel.fault);
   CHECK(motor.channel.state == ECU_STATE_IDLE);
-  CHECK(motor.trips_within(100, slipped) == 25);  // the evidence remains
+  CHECK(motor.trip_tick(100, slipped) == 25);  // the reference of the potentiometer is kept
 }
 
 TEST_CASE("an encoder that slips does not raise the current limit") {
-  Turning motor;
-  motor.runs_on(100);
+  TurningMotor motor;
+  motor.run_unchanged(100);
   const float before_rad_per_s = motor.channel.sensed.speed_rad_per_s;
   ecu_inputs in = motor.read();
   in.encoder_counts -= 41721 / 6;  // 0.167 rad in 2 ms; without load the motor reaches 8.2 rad/s
@@ -169,14 +169,14 @@ TEST_CASE("an encoder that slips does not raise the current limit") {
 }
 
 TEST_CASE("a speed beyond the motor's range trips at the third sample") {
-  Turning motor;
-  motor.runs_on(100);
+  TurningMotor motor;
+  motor.run_unchanged(100);
   int k = 0;
-  CHECK(motor.trips_within(10, [&](ecu_inputs& in) { in.encoder_counts += ++k * 5000; }) == 3);
+  CHECK(motor.trip_tick(10, [&](ecu_inputs& in) { in.encoder_counts += ++k * 5000; }) == 3);
   CHECK(motor.channel.fault == ECU_FAULT_SENSOR_RANGE);
 }
 
 TEST_CASE("a potentiometer beyond its range is ignored") {
-  Turning motor;
-  CHECK(motor.trips_within(300, [](ecu_inputs& in) { in.potentiometer_counts = 4095; }) == 0);
+  TurningMotor motor;
+  CHECK(motor.trip_tick(300, [](ecu_inputs& in) { in.potentiometer_counts = 4095; }) == 0);
 }

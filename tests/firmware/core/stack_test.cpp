@@ -32,11 +32,11 @@ void read(std::istream& text, Graph& graph) {
   }
 }
 
-/// A call stores its return address beside the callee's frame, which `bytes` counts on x86-64.
+/// Stack depth of a function. `bytes` includes the return address on x86-64.
 struct Depth {
   const Graph& graph;
-  std::set<std::string> open = {};     ///< on the current call path
-  std::set<std::string> unknown = {};  ///< called, and not part of the firmware
+  std::set<std::string> call_path = {};  ///< functions on the current call path
+  std::set<std::string> unknown = {};    ///< called functions that are not part of the firmware
   std::optional<std::string> recursive = {};
 
   long of(const std::string& name) {
@@ -44,14 +44,14 @@ struct Depth {
       unknown.insert(name);
       return 0;
     }
-    if (!open.insert(name).second) {
+    if (!call_path.insert(name).second) {
       recursive = name;
       return 0;
     }
     long deepest = 0;
     if (const auto calls = graph.callees.find(name); calls != graph.callees.end())
       for (const auto& callee : calls->second) deepest = std::max(deepest, of(callee));
-    open.erase(name);
+    call_path.erase(name);
     return graph.bytes.at(name) + deepest;
   }
 };
@@ -86,7 +86,7 @@ TEST_CASE("the stack depth of the firmware is bounded: no recursion, no calls by
   }
 }
 
-TEST_CASE("recursion, unknown frames and foreign calls are found") {
+TEST_CASE("recursion, frames of unknown size and calls out of the firmware are detected") {
   std::istringstream text(
       "node: { title: \"a\" label: \"a\\na.c:1:1\\n48 bytes (static)\" }\n"
       "node: { title: \"b\" label: \"b\\na.c:2:1\\n16 bytes (dynamic)\" }\n"

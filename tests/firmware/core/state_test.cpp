@@ -16,7 +16,7 @@ const std::int32_t over_current = ECU_FAULT_OVER_CURRENT;  // the fault used by 
 
 struct Row {
   const char* event;
-  std::function<void(ecu_channel&)> happens;
+  std::function<void(ecu_channel&)> apply;
   ecu_state from_boot, from_idle, from_armed, from_running, from_fault;
 };
 
@@ -39,17 +39,17 @@ TEST_CASE("every event leads from every state to the state in the table") {
   // clang-format off
   const std::vector<Row> rows = {
     // event                                                  boot  idle   armed    running  fault
-    {"good gains", commit,                                    idle, idle,  armed,   running, fault},
-    {"insane gains", bad_commit,                              boot, idle,  armed,   running, fault},
+    {"valid gains", commit,                                   idle, idle,  armed,   running, fault},
+    {"implausible gains", bad_commit,                         boot, idle,  armed,   running, fault},
     {"off", command(ECU_REQUEST_OFF),                         boot, idle,  idle,    idle,    fault},
     {"clear", command(ECU_REQUEST_CLEAR, over_current),       boot, idle,  armed,   running, idle},
-    {"another clear", command(ECU_REQUEST_CLEAR, 1),          boot, idle,  armed,   running, fault},
+    {"other clear", command(ECU_REQUEST_CLEAR, 1),            boot, idle,  armed,   running, fault},
     {"arm", command(ECU_REQUEST_ARM),                         boot, armed, armed,   armed,   fault},
     {"voltage", command(ECU_REQUEST_VOLTAGE, 500),            boot, idle,  running, running, fault},
     {"length", command(ECU_REQUEST_LENGTH, 100),              boot, idle,  running, running, fault},
     {"current", command(ECU_REQUEST_CURRENT, 100),            boot, idle,  running, running, fault},
     {"force", command(ECU_REQUEST_FORCE, 2000),               boot, idle,  running, running, fault},
-    {"insane set-point", command(ECU_REQUEST_VOLTAGE, 13000), boot, idle,  armed,   running, fault},
+    {"bad set-point", command(ECU_REQUEST_VOLTAGE, 13000),    boot, idle,  armed,   running, fault},
     {"unknown request", command(ecu_request(7), 0),           boot, idle,  armed,   running, fault},
     {"trip", trip,                                            boot, fault, fault,   fault,   fault},
     {"50 ms of silence", silence,                             boot, idle,  fault,   fault,   fault},
@@ -62,7 +62,7 @@ TEST_CASE("every event leads from every state to the state in the table") {
       INFO(row.event << " in state " << from);
       ecu_channel channel = in_state(from);
       REQUIRE(channel.state == from);
-      row.happens(channel);
+      row.apply(channel);
       CHECK(channel.state == expected[from]);
       const bool live = channel.state == armed || channel.state == running;
       CHECK((channel.request == ECU_REQUEST_OFF) == !live);

@@ -7,14 +7,14 @@ using namespace firmware;
 
 namespace {
 
-constexpr std::uint16_t warm = 600, well_supplied = 2400;  // 20 degrees, 12 V
+constexpr std::uint16_t warm_counts = 600, supply_counts = 2400;  // 20 degrees, 12 V
 
 struct Loaded {
   ecu_channel channel = in_state(ECU_STATE_RUNNING, fitted_gains());
 
   /// Returns the tick of the trip, 0: no trip.
-  int trips_within(int ticks, float current_A, std::uint16_t temperature = warm,
-                   std::uint16_t supply = well_supplied) {
+  int trip_tick(int ticks, float current_A, std::uint16_t temperature = warm_counts,
+                std::uint16_t supply = supply_counts) {
     const float scale = fitted_gains()[ECU_PARAMETER_CURRENT_SCALE];
     for (int k = 1; k <= ticks; ++k) {
       ecu_command(&channel, ECU_REQUEST_VOLTAGE, 1000);
@@ -27,24 +27,24 @@ struct Loaded {
 
 }  // namespace
 
-TEST_CASE("a motor may carry its continuous current for ever, and twice that for 2 s") {
+TEST_CASE("the continuous current does not trip; twice the continuous current trips after 2 s") {
   Loaded motor;
-  CHECK(motor.trips_within(5000, 1.99f) == 0);
-  const int ticks = motor.trips_within(2000, 4);  // 24 A2 s / (16 - 4) A2
+  CHECK(motor.trip_tick(5000, 1.99f) == 0);
+  const int ticks = motor.trip_tick(2000, 4);  // 24 A2 s / (16 - 4) A2
   CHECK(ticks * 0.002 == Approx(2).epsilon(0.01));
   CHECK(motor.channel.fault == ECU_FAULT_OVERLOAD);
 }
 
 TEST_CASE("after a cleared overload the motor trips again until it has cooled") {
   Loaded motor;
-  motor.trips_within(2000, 4);
+  motor.trip_tick(2000, 4);
   ecu_command(&motor.channel, ECU_REQUEST_CLEAR, motor.channel.fault);
-  CHECK(motor.trips_within(10, 4) == 1);
+  CHECK(motor.trip_tick(10, 4) == 1);
   ecu_command(&motor.channel, ECU_REQUEST_CLEAR, motor.channel.fault);
-  CHECK(motor.trips_within(3000, 0) == 1);  // still above the limit at the first tick
-  for (int k = 0; k < 3000; ++k) tick(motor.channel, {0, 0, 500, 2000, warm, well_supplied});
+  CHECK(motor.trip_tick(3000, 0) == 1);  // still above the limit at the first tick
+  for (int k = 0; k < 3000; ++k) tick(motor.channel, {0, 0, 500, 2000, warm_counts, supply_counts});
   ecu_command(&motor.channel, ECU_REQUEST_CLEAR, motor.channel.fault);
-  CHECK(motor.trips_within(500, 0) == 0);
+  CHECK(motor.trip_tick(500, 0) == 0);
 }
 
 TEST_CASE(
@@ -59,23 +59,23 @@ TEST_CASE(
   CHECK(limit_A(70) == 4);
   CHECK(limit_A(90) == Approx(2));
   CHECK(limit_A(110) == 0);
-  ecu_channel hot = in_state(ECU_STATE_RUNNING, gains);
-  ecu_command(&hot, ECU_REQUEST_VOLTAGE, 12000);
-  const float duty = tick(hot, {0, 0, 500, 2000, counts(90), well_supplied});
+  ecu_channel heated = in_state(ECU_STATE_RUNNING, gains);
+  ecu_command(&heated, ECU_REQUEST_VOLTAGE, 12000);
+  const float duty = tick(heated, {0, 0, 500, 2000, counts(90), supply_counts});
   CHECK(duty / ECU_DUTY_MAX * 12 / 0.516f == Approx(2).epsilon(0.01));
   Loaded motor;
-  CHECK(motor.trips_within(200, 0, counts(99)) == 0);
-  CHECK(motor.trips_within(49, 0, counts(101)) == 0);
-  CHECK(motor.trips_within(200, 0, counts(99)) == 0);
-  CHECK(motor.trips_within(200, 0, counts(101)) == 50);
+  CHECK(motor.trip_tick(200, 0, counts(99)) == 0);
+  CHECK(motor.trip_tick(49, 0, counts(101)) == 0);
+  CHECK(motor.trip_tick(200, 0, counts(99)) == 0);
+  CHECK(motor.trip_tick(200, 0, counts(101)) == 50);
   CHECK(motor.channel.fault == ECU_FAULT_OVER_TEMPERATURE);
 }
 
-TEST_CASE("a low supply of 10 ms trips, a shorter one does not") {
+TEST_CASE("a low supply trips after 10 ms, not before") {
   Loaded motor;
-  CHECK(motor.trips_within(4, 0, warm, 1700) == 0);
-  CHECK(motor.trips_within(1, 0) == 0);
-  CHECK(motor.trips_within(20, 0, warm, 1700) == 5);
+  CHECK(motor.trip_tick(4, 0, warm_counts, 1700) == 0);
+  CHECK(motor.trip_tick(1, 0) == 0);
+  CHECK(motor.trip_tick(20, 0, warm_counts, 1700) == 5);
   CHECK(motor.channel.fault == ECU_FAULT_SUPPLY);
 }
 
@@ -87,7 +87,7 @@ TEST_CASE("sensors that are not fitted are not checked") {
   }
 }
 
-TEST_CASE("the third overrun control period in a row trips, two do not") {
+TEST_CASE("the third consecutive overrun control period trips, two do not") {
   ecu_channel channel = in_state(ECU_STATE_RUNNING);
   for (const bool overran : {true, true, false, true, true}) ecu_overran(&channel, overran);
   CHECK(channel.state == ECU_STATE_RUNNING);

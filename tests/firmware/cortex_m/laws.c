@@ -1,5 +1,6 @@
-/* The control laws on many inputs. Built for the microcontroller it says what they give, a number a
- * line; built for this machine it reads that and compares, in units in the last place (ulp). */
+/* The control laws on many inputs. Built for the microcontroller, the program prints the results,
+ * one per line. Built for this machine, it reads those results and compares, in units in the last
+ * place (ulp). */
 #include "firmware/core/laws.h"
 
 #include <stdint.h>
@@ -7,9 +8,9 @@
 
 #define INPUTS 2000
 
-static void result(float value);
+static void handle_result(float value);
 
-/* -1 … 1, the same everywhere (Numerical Recipes' generator). */
+/* -1 … 1, the same sequence on every machine (generator of Numerical Recipes). */
 static float next(void) {
   static uint32_t state = 1;
   state = state * 1664525u + 1013904223u;
@@ -19,14 +20,16 @@ static float next(void) {
 static void all_laws(void) {
   law_current_memory memory = {0.0f, 0.0f};
   for (int k = 0; k < INPUTS; ++k) {
-    float x[8]; /* drawn in this order by every compiler */
+    float x[8]; /* an array, so that all compilers draw in the same order */
     for (int i = 0; i < 8; ++i) x[i] = next();
     const law_force_gains gains = {3.0f * x[0], x[1], x[2], x[3]};
-    result(law_length_V(40.0f * x[0], 20.0f * x[1], 20.0f * x[2]));
-    result(law_current_V(&memory, x[3], 100.0f * x[4], 0.01f * x[5], 4.0f * x[6], 12.0f, 0.002f));
-    result(memory.integral_V);
-    result(law_force_V(&gains, 150.0f * x[4], 6.0f * x[5], 8.0f * x[6], 150.0f * x[7]));
-    result(law_limit_current_V(20.0f * x[0], 8.0f * x[1], 0.5f + 0.4f * x[2], 1.47f, 4.0f, 12.0f));
+    handle_result(law_length_V(40.0f * x[0], 20.0f * x[1], 20.0f * x[2]));
+    handle_result(
+        law_current_V(&memory, x[3], 100.0f * x[4], 0.01f * x[5], 4.0f * x[6], 12.0f, 0.002f));
+    handle_result(memory.integral_V);
+    handle_result(law_force_V(&gains, 150.0f * x[4], 6.0f * x[5], 8.0f * x[6], 150.0f * x[7]));
+    handle_result(
+        law_limit_current_V(20.0f * x[0], 8.0f * x[1], 0.5f + 0.4f * x[2], 1.47f, 4.0f, 12.0f));
   }
 }
 
@@ -38,14 +41,14 @@ static uint32_t bits_of(float value) {
 
 #ifdef __arm__
 
-/* Semihosting: the debugger, or QEMU, does it for us (ARM DUI 0471, 8). */
+/* Semihosting: the debugger or QEMU performs the operation (ARM DUI 0471, 8). */
 static void call_host(uint32_t operation, const void* argument) {
   register uint32_t r0 __asm("r0") = operation;
   register const void* r1 __asm("r1") = argument;
   __asm volatile("bkpt 0xAB" : "+r"(r0) : "r"(r1) : "memory");
 }
 
-static void result(float value) {
+static void handle_result(float value) {
   char line[10];
   for (int i = 0; i < 8; ++i) line[i] = "0123456789abcdef"[bits_of(value) >> (28 - 4 * i) & 15u];
   line[8] = '\n';
@@ -69,13 +72,13 @@ static int64_t order_of(uint32_t bits) {
   return bits & 0x80000000u ? -(int64_t)(bits & 0x7FFFFFFFu) : (int64_t)bits;
 }
 
-static void result(float value) {
-  unsigned theirs;
-  if (scanf("%x", &theirs) != 1) {
+static void handle_result(float value) {
+  unsigned expected_bits;
+  if (scanf("%x", &expected_bits) != 1) {
     printf("the microcontroller printed %u of %d numbers\n", compared, 5 * INPUTS);
     exit(1);
   }
-  const unsigned ulp = (unsigned)llabs(order_of(bits_of(value)) - order_of(theirs));
+  const unsigned ulp = (unsigned)llabs(order_of(bits_of(value)) - order_of(expected_bits));
   ++compared;
   different += ulp != 0;
   if (ulp > worst_ulp) worst_ulp = ulp;
@@ -83,8 +86,8 @@ static void result(float value) {
 
 int main(void) {
   all_laws();
-  printf("%u numbers of the control laws, %u differ, by at most %u ulp\n", compared,
-         different, worst_ulp);
+  printf("%u numbers of the control laws, %u differ, by at most %u ulp\n", compared, different,
+         worst_ulp);
   return worst_ulp <= 1 ? 0 : 1;
 }
 #endif

@@ -1,6 +1,6 @@
 #!/bin/bash
-# check.sh TRANSITIONS: verifies the model ecu.pml with the state machine that TRANSITIONS prints, and that
-# each of its rules is needed: without it the verification must fail. Debian: spin gcc.
+# check.sh TRANSITIONS: verifies the model ecu.pml with the state machine that TRANSITIONS prints. Then it removes
+# one rule at a time and checks that the verification fails. Debian: spin gcc.
 set -u
 here=$(dirname "$(realpath "$0")") transitions=$(realpath "$1")
 work=$(mktemp -d)
@@ -38,10 +38,10 @@ fails() {  # removed rule, sed expression
 verifier '' -DSAFETY -DNOCLAIM
 holds "asserts, no deadlock"
 verifier ''
-holds "comes to run" -a -N comes_to_run
-holds "stays running" -a -N stays_running
+holds "starts running" -a -N comes_to_run
+holds "keeps running" -a -N stays_running
 fails "the watchdog" 's/since >= WATCHDOG -> trip(SILENCE)/since >= WATCHDOG -> skip/'
-fails "dropping late commands" 's/^#define LATE 6.*/#define LATE 8/'
+fails "dropping outdated commands" 's/^#define LATE 6.*/#define LATE 8/'
 fails "the latch of a fault" 's/state == FAULT && event == ARM -> state = FAULT/state == FAULT \&\& event == ARM -> state = ARMED/'
 fails "naming the fault that is cleared" 's/state == FAULT && f.fault == fault/state == FAULT/'
 fails "arming at rest" 's/state == IDLE && event == SETPOINT -> state = IDLE/state == IDLE \&\& event == SETPOINT -> state = RUNNING/'

@@ -1,17 +1,17 @@
 /* One ECU channel, the gateway and the plant, in rounds of one period each. Until `calm` is set, each of
- * the three may be late, stop and restart, sensors may trip, and the bus may lose, repeat, delay and
+ * the three may be delayed, stop and restart, sensors may trip, and the bus may lose, repeat, delay and
  * reorder frames. spin checks every order of these events:
  *
- *   the channel runs only on a command no older than the watchdog plus the bus's longest delay;
+ *   the channel runs only on a command that is not older than the watchdog plus the longest delay of the bus;
  *   it never runs on a command older than the previous one;
- *   after a fault it does not run until a clear, an arm and a new set-point arrived, in that order;
- *   it does not leave a sensor fault, because this model never clears one;
+ *   after a fault it runs only after a clear, an arm and a new set-point, in that order;
+ *   it does not leave a sensor fault, because this model never clears such a fault;
  *   there is no deadlock; when `calm` is set, a channel with working sensors starts and keeps running.
  *
- * The state machine is the firmware's own: transitions.cpp prints it from firmware/core/state.c. Copied by
- * hand: is_fresh of link.c, the count of gateway.cpp, decide of drive.cpp. Shortened: the watchdog, 25
- * periods in the firmware. Assumed: no frame is in transit longer than DELAY periods; counters of three
- * bits cannot identify an older one. */
+ * The state machine is that of the firmware: transitions.cpp prints it from firmware/core/state.c. Copied by
+ * hand: is_fresh of link.c, the count of gateway.cpp, decide of actuator_channel.cpp. Shortened: the watchdog,
+ * which has 25 periods in the firmware. Assumed: no frame is in transit longer than DELAY periods, because
+ * counters of three bits cannot identify an older one. */
 #include "transitions.pml"
 
 #define WATCHDOG 3
@@ -30,7 +30,7 @@ typedef frame { byte request = NOTHING; byte fault; byte count; byte age };
 bool calm;
 byte turn; /* 0 plant, 1 gateway, 2 bus, 3 ECU */
 
-frame wish; /* plant -> gateway: only the newest */
+frame pending; /* plant -> gateway: only the newest */
 frame bus[2];
 
 /* ECU */
@@ -38,33 +38,33 @@ byte state = BOOT, fault, since;
 bool received;
 byte last_count;
 /* state of the ECU as known to plant and gateway */
-byte seen_state = BOOT, seen_fault, count;
+byte reported_state = BOOT, reported_fault, count;
 /* ghost variables, for the properties only */
 byte followed_age;          /* age of the command in effect */
 bool cleared = true, armed; /* since the last fault */
 
 #define ahead(new, old) ((new + 8 - old) % 8)
 
-inline forget(f) { f.request = NOTHING; f.fault = 0; f.count = 0; f.age = 0 }
+inline clear_frame(f) { f.request = NOTHING; f.fault = 0; f.count = 0; f.age = 0 }
 
 /* A restart takes longer than any frame is in transit. */
-inline clear_wires() { forget(wish); forget(bus[0]); forget(bus[1]) }
+inline clear_wires() { clear_frame(pending); clear_frame(bus[0]); clear_frame(bus[1]) }
 
 inline copy(to, from) {
   to.request = from.request; to.fault = from.fault; to.count = from.count; to.age = from.age
 }
 
-/* ---- plant: components/plant/actuator_channel.cpp, with a controller that always wants to move ---- */
+/* ---- plant: components/plant/actuator_channel.cpp, with a controller that always commands a motion ---- */
 
 inline decide() {
   if
-  :: seen_state == BOOT -> wish.request = COMMIT /* gain set */
-  :: seen_state == IDLE -> wish.request = ARM
-  :: seen_state == ARMED || seen_state == RUNNING -> wish.request = SETPOINT
-  :: seen_state == FAULT && seen_fault == SILENCE -> wish.request = CLEAR; wish.fault = seen_fault
-  :: seen_state == FAULT && seen_fault != SILENCE -> wish.request = OFF
+  :: reported_state == BOOT -> pending.request = COMMIT /* gain set */
+  :: reported_state == IDLE -> pending.request = ARM
+  :: reported_state == ARMED || reported_state == RUNNING -> pending.request = SETPOINT
+  :: reported_state == FAULT && reported_fault == SILENCE -> pending.request = CLEAR; pending.fault = reported_fault
+  :: reported_state == FAULT && reported_fault != SILENCE -> pending.request = OFF
   fi;
-  wish.age = 0
+  pending.age = 0
 }
 
 active proctype plant() {
@@ -72,8 +72,8 @@ active proctype plant() {
   :: atomic { turn == 0 ->
        if
        :: decide()
-       :: !calm /* late, killed or stopped */
-       :: !calm -> seen_state = BOOT /* restarts without state */
+       :: !calm /* delayed, killed or stopped */
+       :: !calm -> reported_state = BOOT /* restarts without state */
        fi;
        turn = 1 }
   od
@@ -100,19 +100,19 @@ inline restart_count() {
 
 inline send(f) {
   count = (count + 1) % 8;
-  copy(f, wish); f.count = count; forget(wish)
+  copy(f, pending); f.count = count; clear_frame(pending)
 }
 
 active proctype gateway() {
   do
   :: atomic { turn == 1 ->
        if
-       :: wish.request != NOTHING && bus[0].request == NOTHING ->
+       :: pending.request != NOTHING && bus[0].request == NOTHING ->
           send(bus[0])
-       :: wish.request != NOTHING && bus[0].request != NOTHING && bus[1].request == NOTHING ->
+       :: pending.request != NOTHING && bus[0].request != NOTHING && bus[1].request == NOTHING ->
           send(bus[1])
-       :: wish.request == NOTHING || (bus[0].request != NOTHING && bus[1].request != NOTHING)
-       :: !calm                                  /* late: only the newest command waits */
+       :: pending.request == NOTHING || (bus[0].request != NOTHING && bus[1].request != NOTHING)
+       :: !calm                                  /* delayed: only the newest command waits */
        :: !calm -> clear_wires(); restart_count()
        fi;
        turn = 2 }
@@ -141,7 +141,7 @@ inline follow(f) {
      if
      :: state == RUNNING ->
         assert(cleared && armed);        /* clear, arm, then a set-point */
-        assert(f.age <= followed_age);   /* never an older command */
+        assert(f.age <= followed_age);   /* never an age_frame command */
         since = 0; followed_age = f.age
      :: else
      fi
@@ -156,7 +156,7 @@ inline receive(f) {
      (!received || (ahead(f.count, last_count) > 0 && ahead(f.count, last_count) < LATE)) ->
      received = true; last_count = f.count;
      follow(f)
-  :: else /* late or repeated */
+  :: else /* outdated or repeated */
   fi
 }
 
@@ -195,7 +195,7 @@ active proctype ecu() {
        :: !calm -> period(); trip(SENSOR)
        :: !calm -> reset()
        fi;
-       if :: seen_state = state; seen_fault = fault :: !calm /* its STATUS is lost */ fi;
+       if :: reported_state = state; reported_fault = fault :: !calm /* its STATUS is lost */ fi;
        if :: calm :: calm = true :: !calm fi;
        renumber();
        turn = 0 }
@@ -204,9 +204,9 @@ active proctype ecu() {
 
 /* ---- bus ---- */
 
-inline older(f) {
+inline age_frame(f) {
   if
-  :: f.request != NOTHING -> f.age++; if :: f.age > DELAY -> forget(f) :: else fi
+  :: f.request != NOTHING -> f.age++; if :: f.age > DELAY -> clear_frame(f) :: else fi
   :: else
   fi
 }
@@ -215,18 +215,18 @@ active proctype wire() {
   do
   :: atomic { turn == 2 ->
        if
-       :: bus[0].request != NOTHING -> receive(bus[0]); forget(bus[0])
+       :: bus[0].request != NOTHING -> receive(bus[0]); clear_frame(bus[0])
        :: bus[0].request != NOTHING && !calm -> receive(bus[0])     /* repeated */
-       :: bus[0].request != NOTHING && !calm -> forget(bus[0])   /* lost */
-       :: bus[1].request != NOTHING -> receive(bus[1]); forget(bus[1]) /* overtakes */
+       :: bus[0].request != NOTHING && !calm -> clear_frame(bus[0])   /* lost */
+       :: bus[1].request != NOTHING -> receive(bus[1]); clear_frame(bus[1]) /* overtakes */
        :: !calm || (bus[0].request == NOTHING && bus[1].request == NOTHING)
        fi;
-       if :: calm && bus[1].request != NOTHING -> receive(bus[1]); forget(bus[1]) :: else fi;
-       older(bus[0]); older(bus[1]); older(wish);
+       if :: calm && bus[1].request != NOTHING -> receive(bus[1]); clear_frame(bus[1]) :: else fi;
+       age_frame(bus[0]); age_frame(bus[1]); age_frame(pending);
        turn = 3 }
   od
 }
 
-#define well (calm && fault != SENSOR)
-ltl comes_to_run { [] (well -> <> (state == RUNNING)) }
-ltl stays_running { [] (well -> <> [] (state == RUNNING)) }
+#define undisturbed (calm && fault != SENSOR)
+ltl comes_to_run { [] (undisturbed -> <> (state == RUNNING)) }
+ltl stays_running { [] (undisturbed -> <> [] (state == RUNNING)) }

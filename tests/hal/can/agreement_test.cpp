@@ -1,4 +1,4 @@
-// Gateway and ECUs together: properties that hold for any bus between them.
+// Properties of gateway and ECUs that hold for any bus between them.
 #include <catch2/catch.hpp>
 #include <set>
 
@@ -11,7 +11,7 @@ using erp::FrameResult;
 TEST_CASE("a run over the bus equals the run without it, bit for bit") {
   for (int actuators : {1, 2, 5, 64}) {
     Pair pair(actuators);
-    Robotics direct(pair.robot, 1);
+    SimulatedChannels direct(pair.robot, 1);
     std::mt19937 random(7);
     std::set<int> states;
     for (int tick = 0; tick < 2000; ++tick) {
@@ -53,13 +53,13 @@ TEST_CASE("the ECUs detect when the whole robot has answered their tick") {
   CHECK(pair.ecus.link(3)->repeated == 0);
 }
 
-TEST_CASE("a command answering the same tick again is still fresh to the ECUs") {
+TEST_CASE("a second command that answers the same tick is accepted by the ECUs") {
   Pair pair;
   pair.receive(pair.report());
   pair.arm();
   for (int mV = 1; mV < 40; ++mV) {
     pair.send(pair.gateway.commands(command_for(pair.robot, 1, ECU_REQUEST_VOLTAGE, mV)));
-    CHECK(pair.robotics.channels[0].setpoint == mV);
+    CHECK(pair.simulated.channels[0].setpoint == mV);
   }
 }
 
@@ -77,17 +77,18 @@ TEST_CASE("a lost command is repeated when the ECUs repeat their tick") {
   CHECK(pair.gateway.frame().sequence == 1);
 }
 
-TEST_CASE("after loss, duplicates and corruption no channel has tripped and both ends agree") {
+TEST_CASE(
+    "after lost, repeated and corrupt frames no channel has tripped and gateway and ECUs agree") {
   Pair pair;
   std::mt19937 random(3);
   pair.receive(pair.report());
   pair.arm();
   const auto disturbed = [&](std::span<const erp::CanFrame> frames, auto deliver) {
     for (auto frame : std::vector(frames.begin(), frames.end())) {
-      const auto fate = random() % 100;
-      if (fate < 10) continue;
-      if (fate < 12) frame.data[random() % 8] ^= 4;
-      for (int copies = fate < 20 ? 2 : 1; copies > 0; --copies) deliver(frame);
+      const auto chance = random() % 100;
+      if (chance < 10) continue;
+      if (chance < 12) frame.data[random() % 8] ^= 4;
+      for (int copies = chance < 20 ? 2 : 1; copies > 0; --copies) deliver(frame);
     }
   };
   for (int tick = 0; tick < 5000; ++tick) {
@@ -95,7 +96,7 @@ TEST_CASE("after loss, duplicates and corruption no channel has tripped and both
     const auto sequence = pair.gateway.frame().sequence;
     disturbed(pair.gateway.commands(command_for(pair.robot, sequence, ECU_REQUEST_FORCE, tick)),
               [&](const auto& frame) { pair.ecus.receive(frame); });
-    for (const auto& channel : pair.robotics.channels)
+    for (const auto& channel : pair.simulated.channels)
       REQUIRE((channel.state == ECU_STATE_RUNNING || channel.state == ECU_STATE_ARMED));
   }
   CHECK(pair.gateway.counters().lost > 1000);
@@ -106,10 +107,10 @@ TEST_CASE("after loss, duplicates and corruption no channel has tripped and both
         command_for(pair.robot, pair.gateway.frame().sequence, ECU_REQUEST_FORCE, 5)));
   }
   pair.receive(pair.report());
-  CHECK(difference(pair.gateway.frame(), pair.robotics.frame) == "");
+  CHECK(difference(pair.gateway.frame(), pair.simulated.frame) == "");
 }
 
-TEST_CASE("neither end uses the heap after construction") {
+TEST_CASE("gateway and ECUs do not use the heap after construction") {
   Pair pair(64);
   const auto gains = gains_for(pair.robot);
   std::mt19937 random(4);
@@ -118,8 +119,8 @@ TEST_CASE("neither end uses the heap after construction") {
     commands.push_back(any_command(pair.robot, std::uint64_t(tick + 1), random));
   const std::size_t before = tests::allocations();
   for (const auto& command : commands) {
-    pair.robotics.tick();
-    for (const auto& frame : pair.ecus.report(pair.robotics.frame)) pair.gateway.receive(frame);
+    pair.simulated.tick();
+    for (const auto& frame : pair.ecus.report(pair.simulated.frame)) pair.gateway.receive(frame);
     for (const auto& frame : pair.gateway.parameters(gains)) pair.ecus.receive(frame);
     for (const auto& frame : pair.gateway.commands(command)) pair.ecus.receive(frame);
     pair.gateway.clear_events();
@@ -134,11 +135,11 @@ TEST_CASE("random frames never stop a gateway") {
   for (int n = 0; n < 300000; ++n) {
     erp::CanFrame frame{std::uint16_t(random()), 8, {}};
     for (auto& byte : frame.data) byte = std::uint8_t(random());
-    if (n % 2) {  // intact envelopes with any content
+    if (n % 2) {  // valid check value, random content
       frame.id = std::uint16_t(frame.id & 0x7FF);
-      std::uint8_t covered[9] = {std::uint8_t(frame.id & 0xFF), std::uint8_t(frame.id >> 8)};
-      std::copy_n(frame.data, 7, covered + 2);
-      frame.data[7] = frame_crc8(covered, 9);
+      std::uint8_t checked_bytes[9] = {std::uint8_t(frame.id & 0xFF), std::uint8_t(frame.id >> 8)};
+      std::copy_n(frame.data, 7, checked_bytes + 2);
+      frame.data[7] = frame_crc8(checked_bytes, 9);
     }
     pair.gateway.receive(frame);
     pair.ecus.receive(frame);

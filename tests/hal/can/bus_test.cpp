@@ -13,18 +13,20 @@
 
 using namespace can_test;
 
-TEST_CASE("two ends of a UDP bus receive each other's frames, in order and complete") {
-  hears_in_order(free_udp_bus());
+TEST_CASE("two participants of a UDP bus receive each other's frames, in order and complete") {
+  receives_in_order(free_udp_bus());
 }
 
-TEST_CASE("own frames are not received on a UDP bus") { hears_not_itself(free_udp_bus()); }
+TEST_CASE("own frames are not received on a UDP bus") {
+  does_not_receive_own_frames(free_udp_bus());
+}
 
 TEST_CASE("all participants of a UDP bus receive the same frames") {
-  is_heard_by_all(free_udp_bus());
+  all_participants_receive(free_udp_bus());
 }
 
-TEST_CASE("a receive with little room leaves the other frames for the next call") {
-  keeps_the_rest(free_udp_bus());
+TEST_CASE("frames beyond the size of the receive buffer are returned by the next call") {
+  keeps_remaining_frames(free_udp_bus());
 }
 
 TEST_CASE("gateway and ECUs run in lockstep over UDP") { runs_in_lockstep(free_udp_bus()); }
@@ -86,8 +88,8 @@ TEST_CASE("each ERP_DOMAIN has its own ports, one for each possible bus of a rob
   const char* before = std::getenv("ERP_DOMAIN");
   const std::string domain = before ? before : "0";
   setenv("ERP_DOMAIN", "0", 1);
-  CHECK(erp::own_bus() == "udp:239.255.42.1:20000");
+  CHECK(erp::default_bus() == "udp:239.255.42.1:20000");
   setenv("ERP_DOMAIN", "3", 1);
-  CHECK(erp::own_bus() == "udp:239.255.42.1:20048");
+  CHECK(erp::default_bus() == "udp:239.255.42.1:20048");
   setenv("ERP_DOMAIN", domain.c_str(), 1);
 }

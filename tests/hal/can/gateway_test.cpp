@@ -16,14 +16,14 @@ bool is_status(const erp::CanFrame& frame, int ecu, int channel) {
 
 }  // namespace
 
-TEST_CASE("a gateway that starts late receives the full encoder count") {
+TEST_CASE("a gateway that starts after 5000 ticks receives the full encoder count") {
   Pair pair;
   for (int tick = 0; tick < 5000; ++tick)
     pair.report();  // more than 16 bits of counts, not received
-  CHECK(std::abs(pair.robotics.frame.channels._buffer[0].encoder_counts) > 65536);
-  const auto again = pair.ecus.repeat();
-  CHECK(pair.receive({again.begin(), again.end()}) == 1);
-  CHECK(difference(pair.gateway.frame(), pair.robotics.frame) == "");
+  CHECK(std::abs(pair.simulated.frame.channels._buffer[0].encoder_counts) > 65536);
+  const auto repeated_frames = pair.ecus.repeat();
+  CHECK(pair.receive({repeated_frames.begin(), repeated_frames.end()}) == 1);
+  CHECK(difference(pair.gateway.frame(), pair.simulated.frame) == "");
 }
 
 TEST_CASE("after a DISCOVER a gateway receives all data in the next tick") {
@@ -31,7 +31,7 @@ TEST_CASE("after a DISCOVER a gateway receives all data in the next tick") {
   for (int tick = 0; tick < 777; ++tick) pair.report();
   pair.send(pair.gateway.discover());
   CHECK(pair.receive(pair.report()) == 1);
-  CHECK(difference(pair.gateway.frame(), pair.robotics.frame) == "");
+  CHECK(difference(pair.gateway.frame(), pair.simulated.frame) == "");
   REQUIRE(pair.gateway.hellos().size() == 3);
   CHECK(pair.gateway.hellos()[0].named);
   CHECK(pair.gateway.hellos()[0].content.channels == 3);
@@ -42,10 +42,10 @@ TEST_CASE("after a DISCOVER a gateway receives all data in the next tick") {
 
 TEST_CASE("channels and inputs that an ECU lacks are reported after each boot") {
   Pair pair;
-  const frame_hello poor{FRAME_VERSION, 0b01, 0, 0, 0};
+  const frame_hello incomplete_hello{FRAME_VERSION, 0b01, 0, 0, 0};
   const frame_emergency boot{true, 0, 0, FRAME_RESET_POWER, FRAME_VERSION, 0};
   erp::CanFrame hello, booted;
-  frame_pack_hello(&hello, 3, &poor);
+  frame_pack_hello(&hello, 3, &incomplete_hello);
   frame_pack_emergency(&booted, 3, &boot);
   for (int k = 0; k < 2; ++k) {
     for (int repeated = 0; repeated < 3; ++repeated) pair.gateway.receive(hello);
@@ -76,25 +76,26 @@ TEST_CASE("an ECU that robot.xml does not contain is reported and has no effect"
 }
 
 TEST_CASE(
-    "without lockstep a late gateway knows every encoder count within 200 ms and reports none "
-    "before") {
+    "without lockstep a gateway that starts after the ECUs reports each encoder count within 200 "
+    "ms, "
+    "and only when it is known") {
   Pair pair;
   for (int tick = 0; tick < 777; ++tick) pair.report();
-  const frame_hello known{FRAME_VERSION, 3, 0, 0, 0};
+  const frame_hello known_hello{FRAME_VERSION, 3, 0, 0, 0};
   for (std::uint8_t ecu = 3; ecu < 6; ++ecu) {  // identified earlier: no HEALTH follows
     erp::CanFrame hello;
-    frame_pack_hello(&hello, ecu, &known);
+    frame_pack_hello(&hello, ecu, &known_hello);
     pair.gateway.receive(hello);
   }
   for (int tick = 0; tick < 100; ++tick) {
     pair.receive(pair.report());
     for (int i = 0; i < 5; ++i) {  // a tick closed early may be the previous one
-      const auto truth = pair.robotics.frame.channels._buffer[i].encoder_counts;
+      const auto truth = pair.simulated.frame.channels._buffer[i].encoder_counts;
       if (pair.sample(i).fresh) CHECK(std::abs(pair.sample(i).encoder_counts - truth) < 2000);
     }
   }
   CHECK(pair.receive(pair.report()) == 1);
-  CHECK(difference(pair.gateway.frame(), pair.robotics.frame) == "");
+  CHECK(difference(pair.gateway.frame(), pair.simulated.frame) == "");
 }
 
 TEST_CASE("after a lost status the channel is not fresh, and the next tick is complete") {
@@ -106,16 +107,16 @@ TEST_CASE("after a lost status the channel is not fresh, and the next tick is co
     const auto encoder = pair.sample(1).encoder_counts;
     for (const auto& frame : pair.report())
       if (!is_status(frame, 3, 1)) CHECK(pair.gateway.receive(frame) == FrameResult::nothing);
-    const auto truth_then = pair.robotics.frame;
+    const auto expected = pair.simulated.frame;
     int ticks = 0;
     for (const auto& frame : pair.report()) {
       if (pair.gateway.receive(frame) != FrameResult::tick || ++ticks > 1) continue;
       CHECK_FALSE(pair.sample(1).fresh);
       CHECK(pair.sample(1).encoder_counts == encoder);
-      for (int i : {0, 2, 3, 4}) CHECK(same(pair.sample(i), truth_then.channels._buffer[i]));
+      for (int i : {0, 2, 3, 4}) CHECK(same(pair.sample(i), expected.channels._buffer[i]));
     }
     CHECK(ticks == 2);
-    CHECK(difference(pair.gateway.frame(), pair.robotics.frame) == "");
+    CHECK(difference(pair.gateway.frame(), pair.simulated.frame) == "");
     CHECK(pair.gateway.counters().lost == 1);
     CHECK(pair.gateway.counters().incomplete_ticks == 1);
   }
@@ -141,18 +142,18 @@ TEST_CASE("a channel that was never received has state unknown") {
   CHECK_FALSE(pair.sample(0).fresh);
 }
 
-TEST_CASE("corrupt, repeated and late frames are counted and have no effect") {
+TEST_CASE("corrupt, repeated and outdated frames are counted and have no effect") {
   Pair pair;
   pair.receive(pair.report());
-  const auto old = pair.report();
-  pair.receive(old);
+  const auto old_frames = pair.report();
+  pair.receive(old_frames);
   pair.receive(pair.report());
   const erp::EcuFrame before = pair.gateway.frame();
   for (auto frame : pair.report()) {
     frame.data[2] ^= 1;
     CHECK(pair.gateway.receive(frame) == FrameResult::nothing);
   }
-  for (const auto& frame : old) CHECK(pair.gateway.receive(frame) == FrameResult::nothing);
+  for (const auto& frame : old_frames) CHECK(pair.gateway.receive(frame) == FrameResult::nothing);
   CHECK(difference(before, pair.gateway.frame()) == "");
   CHECK(pair.gateway.counters().corrupt == 9);  // 5 STATUS, 4 ANALOG
   CHECK(pair.gateway.counters().late == 9);
@@ -165,16 +166,16 @@ TEST_CASE("an ECU that boots during a run is used again, and its boot is reporte
     pair.send(pair.gateway.commands(
         command_for(pair.robot, pair.gateway.frame().sequence, ECU_REQUEST_OFF, 0)));
   }
-  Robotics fresh(pair.robot, 2);
-  erp::RobotEcus rebooted(pair.robot, fresh.lent);
+  SimulatedChannels rebooted_channels(pair.robot, 2);
+  erp::RobotEcus rebooted(pair.robot, rebooted_channels.channel_pointers);
   const auto boot = rebooted.boot(FRAME_RESET_BROWN_OUT);
   pair.receive({boot.begin(), boot.end()});
   REQUIRE(pair.gateway.emergencies().size() == 3);
   CHECK(pair.gateway.emergencies()[0].content.reset_cause == FRAME_RESET_BROWN_OUT);
-  fresh.tick();
-  const auto first = rebooted.report(fresh.frame);
+  rebooted_channels.tick();
+  const auto first = rebooted.report(rebooted_channels.frame);
   CHECK(pair.receive({first.begin(), first.end()}) == 1);
-  CHECK(difference(pair.gateway.frame(), fresh.frame) == "");
+  CHECK(difference(pair.gateway.frame(), rebooted_channels.frame) == "");
   const auto sequence = pair.gateway.frame().sequence;
   for (const auto& frame : pair.gateway.commands(command_for(pair.robot, sequence, 0, 0)))
     CHECK(rebooted.receive(frame));
@@ -189,8 +190,8 @@ TEST_CASE("after a boot an encoder count is unknown until its HEALTH frame arriv
   CHECK(pair.receive(pair.report()) == 0);
   pair.gateway.close_tick();
   CHECK_FALSE(pair.sample(0).fresh);
-  const auto whole = pair.ecus.repeat();
-  for (const auto& frame : whole) pair.gateway.receive(frame);
+  const auto all_frames = pair.ecus.repeat();
+  for (const auto& frame : all_frames) pair.gateway.receive(frame);
   pair.gateway.close_tick();
   CHECK(pair.sample(0).fresh);
 }
@@ -227,12 +228,12 @@ TEST_CASE(
     "a parameter number beyond six bits invalidates its set and is never sent as another number") {
   Pair pair;
   pair.arm();
-  const float before = pair.robotics.channels[0].gains[0];
+  const float before = pair.simulated.channels[0].gains[0];
   erp::EcuParameter parameter;
   erp::append(parameter.values, erp::EcuParameterValue{3, 0, 64, true, 99});
   pair.send(pair.gateway.parameters(parameter));
-  CHECK(pair.robotics.channels[0].gains[0] == before);
-  CHECK(pair.robotics.channels[0].rejected_commits == 1);
+  CHECK(pair.simulated.channels[0].gains[0] == before);
+  CHECK(pair.simulated.channels[0].rejected_commits == 1);
 }
 
 TEST_CASE("two actuators on one channel, or two sensors on one input, are refused") {
@@ -240,11 +241,12 @@ TEST_CASE("two actuators on one channel, or two sensors on one input, are refuse
   robot.actuators[1].channel = 0;
   CHECK_THROWS_WITH(erp::Gateway(robot),
                     Catch::Contains("muscle_1") && Catch::Contains("ECU 3 channel 0"));
-  Robotics robotics(robot, 1);
-  CHECK_THROWS_WITH(erp::RobotEcus(robot, robotics.lent), Catch::Contains("ECU 3 channel 0"));
+  SimulatedChannels simulated(robot, 1);
+  CHECK_THROWS_WITH(erp::RobotEcus(robot, simulated.channel_pointers),
+                    Catch::Contains("ECU 3 channel 0"));
   robot = robot_of(2);
   robot.joint_sensors[1].input = 0;
   CHECK_THROWS_WITH(erp::Gateway(robot), Catch::Contains("joint_33") && Catch::Contains("input 0"));
-  CHECK_THROWS_WITH(erp::RobotEcus(robot_of(3), robotics.lent),
+  CHECK_THROWS_WITH(erp::RobotEcus(robot_of(3), simulated.channel_pointers),
                     Catch::Contains("has 3 actuators, got 2"));
 }

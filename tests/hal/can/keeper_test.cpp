@@ -1,5 +1,5 @@
-// Supervision of a bus by the gateway: pure, on a simulated bus. slcan_test does the same with the error
-// frames of a real controller.
+// Supervision of a bus by the gateway: pure, on a simulated bus. slcan_test does the same with the
+// error frames of a real controller.
 #include "hal/can/bus_keeper.hpp"
 
 #include <catch2/catch.hpp>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::int64_t ms = 1'000'000;
 
-struct Kept {
+struct SupervisedBus {
   NarrowBus* bus = new NarrowBus;
   erp::BusKeeper keeper{"left", std::unique_ptr<erp::CanBus>(bus)};
   std::int64_t now_ns = ms;
@@ -38,33 +38,33 @@ using Codes = std::vector<std::string>;
 
 }  // namespace
 
-TEST_CASE("a bus in bus-off is restarted three times, 100 ms apart, then no more") {
+TEST_CASE("a bus in bus-off is restarted three times at intervals of 100 ms, then no more") {
   BusRecovery recovery;
-  std::vector<std::int64_t> at;
-  bool gave_up = false;
+  std::vector<std::int64_t> restart_times_ms;
+  bool has_given_up = false;
   for (std::int64_t now = 0; now < 2000 * ms; now += ms) switch (recovery.step(true, now)) {
-      case BusRecovery::Do::restart:
-        REQUIRE_FALSE(gave_up);
-        at.push_back(now / ms);
+      case BusRecovery::Action::restart:
+        REQUIRE_FALSE(has_given_up);
+        restart_times_ms.push_back(now / ms);
         break;
-      case BusRecovery::Do::give_up:
-        REQUIRE_FALSE(gave_up);
-        gave_up = true;
+      case BusRecovery::Action::give_up:
+        REQUIRE_FALSE(has_given_up);
+        has_given_up = true;
         break;
-      case BusRecovery::Do::nothing:
+      case BusRecovery::Action::nothing:
         break;
     }
-  CHECK(at == std::vector<std::int64_t>{0, 100, 200});
-  CHECK(gave_up);
+  CHECK(restart_times_ms == std::vector<std::int64_t>{0, 100, 200});
+  CHECK(has_given_up);
 }
 
 TEST_CASE("after ten seconds without bus-off the restarts are available again") {
   BusRecovery recovery;
   const auto restarts_again = [&](std::int64_t now) {
-    return recovery.step(true, now) == BusRecovery::Do::restart;
+    return recovery.step(true, now) == BusRecovery::Action::restart;
   };
   for (int k = 0; k < 3; ++k) CHECK(restarts_again(k * 100 * ms));
-  CHECK(recovery.step(false, 9000 * ms) == BusRecovery::Do::nothing);
+  CHECK(recovery.step(false, 9000 * ms) == BusRecovery::Action::nothing);
   CHECK(recovery.restarts() == 3);
   recovery.step(false, 10'201 * ms);
   CHECK(recovery.restarts() == 0);
@@ -72,87 +72,87 @@ TEST_CASE("after ten seconds without bus-off the restarts are available again") 
 }
 
 TEST_CASE("bus-off is reported, the queue is dropped, and nothing is sent until it ends") {
-  Kept kept;
-  kept.pass(1);
-  kept.bus->counted.state = BusState::off;
-  kept.command();
-  kept.bus->room = 10;
-  CHECK(kept.pass(1) == Codes{"bus_off", "bus_restarted"});
-  kept.command();
-  CHECK(kept.pass(250) == Codes{"bus_restarted", "bus_restarted"});
-  CHECK(kept.bus->taken.empty());
-  CHECK(kept.keeper.outbox().expired() == 2);
-  CHECK(kept.pass(200) == Codes{"bus_off_latched"});
-  CHECK(kept.pass(1000).empty());
-  CHECK(kept.bus->restarts == 3);
-  CHECK(kept.keeper.given_up());
+  SupervisedBus supervised;
+  supervised.pass(1);
+  supervised.bus->bus_counters.state = BusState::off;
+  supervised.command();
+  supervised.bus->room = 10;
+  CHECK(supervised.pass(1) == Codes{"bus_off", "bus_restarted"});
+  supervised.command();
+  CHECK(supervised.pass(250) == Codes{"bus_restarted", "bus_restarted"});
+  CHECK(supervised.bus->sent_frames.empty());
+  CHECK(supervised.keeper.outbox().expired() == 2);
+  CHECK(supervised.pass(200) == Codes{"bus_off_latched"});
+  CHECK(supervised.pass(1000).empty());
+  CHECK(supervised.bus->restarts == 3);
+  CHECK(supervised.keeper.given_up());
 }
 
 TEST_CASE("error-warning, error-passive and error-active are reported once each") {
-  Kept kept;
+  SupervisedBus supervised;
   for (const auto& [state, code] : {std::pair{BusState::warning, "bus_warning"},
                                     {BusState::passive, "bus_passive"},
                                     {BusState::active, "bus_active"},
                                     {BusState::down, "bus_down"}}) {
-    kept.bus->counted.state = state;
-    CHECK(kept.pass(50) == Codes{code});
+    supervised.bus->bus_counters.state = state;
+    CHECK(supervised.pass(50) == Codes{code});
   }
 }
 
 TEST_CASE("frames that are not sent are reported after 20 ms, and no burst follows") {
-  Kept kept;
-  kept.bus->room = 2;
-  kept.bus->flying = 0;
-  kept.command();
-  kept.pass(1);
-  kept.bus->flying = 1;  // accepted, not seen on the wire
-  CHECK(kept.pass(19).empty());
-  CHECK(kept.pass(2) == Codes{"not_acknowledged"});
-  for (int k = 0; k < 50; ++k) kept.command(), kept.pass(2);
-  CHECK(kept.bus->taken.size() == 1);
-  kept.bus->flying = 0;  // acknowledged
-  kept.bus->room = 100;
-  CHECK(kept.pass(2) == Codes{"acknowledged"});
-  CHECK(kept.bus->taken.size() == 1);
-  kept.command();
-  CHECK(kept.bus->taken.size() == 2);
+  SupervisedBus supervised;
+  supervised.bus->room = 2;
+  supervised.bus->in_flight_frames = 0;
+  supervised.command();
+  supervised.pass(1);
+  supervised.bus->in_flight_frames = 1;  // accepted, not seen on the wire
+  CHECK(supervised.pass(19).empty());
+  CHECK(supervised.pass(2) == Codes{"not_acknowledged"});
+  for (int k = 0; k < 50; ++k) supervised.command(), supervised.pass(2);
+  CHECK(supervised.bus->sent_frames.size() == 1);
+  supervised.bus->in_flight_frames = 0;  // acknowledged
+  supervised.bus->room = 100;
+  CHECK(supervised.pass(2) == Codes{"acknowledged"});
+  CHECK(supervised.bus->sent_frames.size() == 1);
+  supervised.command();
+  CHECK(supervised.bus->sent_frames.size() == 2);
 }
 
 TEST_CASE("missing acknowledgement is reported only while no frame is received") {
-  Kept kept;
-  kept.pass(5);
-  kept.bus->counted.unacknowledged = 1;
-  CHECK(kept.pass(10).empty());
-  kept.bus->counted.received = 1;  // so another node is present
-  CHECK(kept.pass(100).empty());
-  kept.bus->counted.unacknowledged = 2;
-  CHECK(kept.pass(30) == Codes{"not_acknowledged"});
-  kept.bus->counted.received = 2;
-  CHECK(kept.pass(30) == Codes{"acknowledged"});
+  SupervisedBus supervised;
+  supervised.pass(5);
+  supervised.bus->bus_counters.unacknowledged = 1;
+  CHECK(supervised.pass(10).empty());
+  supervised.bus->bus_counters.received = 1;  // another node is present
+  CHECK(supervised.pass(100).empty());
+  supervised.bus->bus_counters.unacknowledged = 2;
+  CHECK(supervised.pass(30) == Codes{"not_acknowledged"});
+  supervised.bus->bus_counters.received = 2;
+  CHECK(supervised.pass(30) == Codes{"acknowledged"});
 }
 
 TEST_CASE("a silent ECU is reported after 10 ms, after 50 ms and when it sends again") {
   erp::EcuWatch watch;
-  std::vector<std::pair<std::int64_t, erp::EcuWatch::Event>> news;
+  std::vector<std::pair<std::int64_t, erp::EcuWatch::Event>> events;
   const auto pass_until = [&](std::int64_t from_ms, std::int64_t to_ms) {
     for (std::int64_t t = from_ms; t <= to_ms; ++t)
-      watch.step(t * ms, [&](int ecu, erp::EcuWatch::Event what) {
+      watch.step(t * ms, [&](int ecu, erp::EcuWatch::Event event) {
         CHECK(ecu == 5);
-        news.emplace_back(t, what);
+        events.emplace_back(t, event);
       });
   };
   pass_until(0, 100);
-  CHECK(news.empty());  // never received
+  CHECK(events.empty());  // never received
   watch.received(5, 100 * ms);
   pass_until(100, 200);
   using enum erp::EcuWatch::Event;
-  CHECK(news == decltype(news){{110, silent}, {150, lost}});
+  CHECK(events == decltype(events){{110, silent}, {150, lost}});
   watch.received(5, 200 * ms);
   pass_until(200, 205);
-  CHECK(news.back() == std::pair{std::int64_t{200}, back});
+  CHECK(events.back() == std::pair{std::int64_t{200}, back});
   watch.received(5, 205 * ms);
   pass_until(206, 216);
   watch.received(5, 216 * ms);
   pass_until(217, 220);
-  CHECK(news.size() == 4);  // silent again; its end is not reported
+  CHECK(events.size() == 4);  // silent again; its end is not reported
 }

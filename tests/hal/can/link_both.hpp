@@ -13,7 +13,7 @@
 #include "hal/can/robot_ecus.hpp"
 #include "tests/hal/can/rig.hpp"
 
-/// Checks for every back end: over UDP, and over SocketCAN where available.
+/// Checks that every back end must pass: UDP, and SocketCAN if available.
 namespace can_test {
 
 /// A bus specification with an unused port.
@@ -42,12 +42,12 @@ inline bool same(const erp::CanFrame& a, const erp::CanFrame& b) {
 /// Waits for `count` frames.
 inline std::vector<erp::CanFrame> collect(erp::CanBus& bus, std::size_t count) {
   std::vector<erp::CanFrame> frames(count);
-  for (std::size_t have = 0; have < count;)
-    have += bus.receive(std::span(frames).subspan(have), 10);
+  for (std::size_t count_received = 0; count_received < count;)
+    count_received += bus.receive(std::span(frames).subspan(count_received), 10);
   return frames;
 }
 
-inline void hears_in_order(const std::string& specification) {
+inline void receives_in_order(const std::string& specification) {
   const auto a = erp::open_bus(specification), b = erp::open_bus(specification);
   std::vector<erp::CanFrame> sent;
   for (unsigned n = 0; n < 150; ++n) sent.push_back(numbered(n));
@@ -62,19 +62,19 @@ inline void hears_in_order(const std::string& specification) {
   CHECK(a->counters().refused == 0);
 }
 
-inline void hears_not_itself(const std::string& specification) {
+inline void does_not_receive_own_frames(const std::string& specification) {
   const auto a = erp::open_bus(specification), b = erp::open_bus(specification);
-  const auto mine = numbered(1), other = numbered(2);
-  a->send({&mine, 1});
+  const auto own_frame = numbered(1), other = numbered(2);
+  a->send({&own_frame, 1});
   b->send({&other, 1});
   CHECK(same(collect(*a, 1)[0], other));
-  CHECK(same(collect(*b, 1)[0], mine));
-  erp::CanFrame more;
-  CHECK(a->receive({&more, 1}, 0) == 0);
-  CHECK(b->receive({&more, 1}, 0) == 0);
+  CHECK(same(collect(*b, 1)[0], own_frame));
+  erp::CanFrame extra;
+  CHECK(a->receive({&extra, 1}, 0) == 0);
+  CHECK(b->receive({&extra, 1}, 0) == 0);
 }
 
-inline void is_heard_by_all(const std::string& specification) {
+inline void all_participants_receive(const std::string& specification) {
   const auto a = erp::open_bus(specification), b = erp::open_bus(specification),
              c = erp::open_bus(specification);
   const auto frame = numbered(77);
@@ -83,7 +83,7 @@ inline void is_heard_by_all(const std::string& specification) {
   CHECK(same(collect(*c, 1)[0], frame));
 }
 
-inline void keeps_the_rest(const std::string& specification) {
+inline void keeps_remaining_frames(const std::string& specification) {
   const auto a = erp::open_bus(specification), b = erp::open_bus(specification);
   std::vector<erp::CanFrame> sent;
   for (unsigned n = 0; n < 10; ++n) sent.push_back(numbered(n));
@@ -95,12 +95,13 @@ inline void keeps_the_rest(const std::string& specification) {
   }
 }
 
-/// 500 ticks of a robot with 11 actuators, both ends in this thread, compared with a run without a bus.
+/// 500 ticks of a robot with 11 actuators, both sides in this thread, compared with a run without a
+/// bus.
 inline void runs_in_lockstep(const std::string& specification,
                              const erp::BusOptions& options = {}) {
   const auto robot = robot_of(11);
-  Robotics robotics(robot, 1), direct(robot, 1);
-  erp::RobotEcus ecus(robot, robotics.lent);
+  SimulatedChannels simulated(robot, 1), direct(robot, 1);
+  erp::RobotEcus ecus(robot, simulated.channel_pointers);
   erp::Gateway gateway(robot);
   const auto robot_side = erp::open_bus(specification, options),
              host_side = erp::open_bus(specification, options);
@@ -119,27 +120,27 @@ inline void runs_in_lockstep(const std::string& specification,
   for (int tick = 0; tick < 500; ++tick) {
     INFO("tick " << tick);
     direct.tick();
-    robotics.tick();
-    const auto content = ecus.report(robotics.frame);
+    simulated.tick();
+    const auto content = ecus.report(simulated.frame);
     REQUIRE(robot_side->send(content) == content.size());
-    for (bool whole = false; !whole;) {
+    for (bool is_complete = false; !is_complete;) {
       const auto count = host_side->receive(frames, 10);
       for (std::size_t i = 0; i < count; ++i)
-        whole = gateway.receive(frames[i]) == erp::FrameResult::tick || whole;
+        is_complete = gateway.receive(frames[i]) == erp::FrameResult::tick || is_complete;
     }
     REQUIRE(difference(gateway.frame(), direct.frame) == "");
     auto command = any_command(robot, gateway.frame().sequence, random);
     for (const auto& actuator : robot.actuators) {  // lockstep needs a command to every ECU
-      const auto asked = erp::samples(command.channels);
-      const bool spoken_to = std::any_of(asked.begin(), asked.end(),
-                                         [&](const auto& c) { return c.ecu == actuator.ecu; });
-      if (!spoken_to)
+      const auto requested = erp::samples(command.channels);
+      const bool is_commanded = std::any_of(requested.begin(), requested.end(),
+                                            [&](const auto& c) { return c.ecu == actuator.ecu; });
+      if (!is_commanded)
         erp::append(command.channels, erp::EcuChannelCommand{std::uint8_t(actuator.ecu),
                                                              std::uint8_t(actuator.channel), 0, 0});
     }
     direct.apply(command);
-    const auto asked = gateway.commands(command);
-    REQUIRE(host_side->send(asked) == asked.size());
+    const auto commands = gateway.commands(command);
+    REQUIRE(host_side->send(commands) == commands.size());
     while (!ecus.answered()) {
       const auto count = robot_side->receive(frames, 10);
       for (std::size_t i = 0; i < count; ++i) ecus.receive(frames[i]);

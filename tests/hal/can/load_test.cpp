@@ -37,13 +37,13 @@ TEST_CASE("a CAN FD frame sends its identifier at the nominal rate and its data 
 TEST_CASE("an ECU with two channels needs three frames per period and a HEALTH every 25") {
   CHECK(share(on_one_bus(1)) == Approx((3 + 1.0 / 25) * 135e-6 / 0.002));
   CHECK(share(on_one_bus(4)) == Approx(4 * share(on_one_bus(1))));
-  auto sensed = on_one_bus(1);
+  auto with_sensors = on_one_bus(1);
   for (int input : {0, 1, 3}) {
     erp::JointSensor sensor;
     sensor.ecu = 3, sensor.input = input;
-    sensed.joint_sensors.push_back(sensor);
+    with_sensors.joint_sensors.push_back(sensor);
   }
-  CHECK(share(sensed) == Approx((5 + 1.0 / 25) * 135e-6 / 0.002));
+  CHECK(share(with_sensors) == Approx((5 + 1.0 / 25) * 135e-6 / 0.002));
 }
 
 TEST_CASE("four ECUs fit on a classic bus; five are refused with place and remedy") {

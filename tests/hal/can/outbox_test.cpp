@@ -38,12 +38,12 @@ TEST_CASE("only the newest waiting command to an ECU is sent") {
     outbox.put({&frame, 1}, start);
     outbox.flush(bus, start);
   }
-  CHECK(bus.taken.empty());
+  CHECK(bus.sent_frames.empty());
   CHECK(outbox.replaced() == 4);
   bus.room = 10;
   outbox.flush(bus, start + ms);
-  REQUIRE(bus.taken.size() == 1);
-  CHECK(setpoint_of(bus.taken[0]) == 4);
+  REQUIRE(bus.sent_frames.size() == 1);
+  CHECK(setpoint_of(bus.sent_frames[0]) == 4);
   CHECK(outbox.empty());
 }
 
@@ -54,7 +54,7 @@ TEST_CASE("a command that was not sent within a tick is never sent") {
   outbox.put({&frame, 1}, start);
   bus.room = 10;
   outbox.flush(bus, start + 2 * ms + 1);
-  CHECK(bus.taken.empty());
+  CHECK(bus.sent_frames.empty());
   CHECK(outbox.expired() == 1);
 }
 
@@ -72,11 +72,11 @@ TEST_CASE("commands overtake gains; gains wait in order, and none is lost") {
     outbox.flush(bus, start + tick * 2 * ms);
     REQUIRE(tick < 20);
   }
-  REQUIRE(bus.taken.size() == 40);  // 10 ticks of a command and three gains
+  REQUIRE(bus.sent_frames.size() == 40);  // 10 ticks of a command and three gains
   std::uint8_t expected = 0;
-  for (std::size_t i = 0; i < bus.taken.size(); ++i) {
+  for (std::size_t i = 0; i < bus.sent_frames.size(); ++i) {
     frame_parameter content;
-    const bool is_gain = frame_unpack_parameter(&bus.taken[i], &content);
+    const bool is_gain = frame_unpack_parameter(&bus.sent_frames[i], &content);
     CHECK(is_gain == (i % 4 != 0));
     if (is_gain) CHECK(content.position == expected++);
   }
@@ -93,9 +93,9 @@ TEST_CASE("in lockstep, at time 0, no command overtakes a gain, and none is repl
   }
   bus.room = 10;
   outbox.flush(bus, 0);
-  REQUIRE(bus.taken.size() == 4);
-  for (std::size_t i = 0; i < 4; ++i) CHECK(bus.taken[i].id == frames[i].id);
-  CHECK(setpoint_of(bus.taken[3]) == 2);
+  REQUIRE(bus.sent_frames.size() == 4);
+  for (std::size_t i = 0; i < 4; ++i) CHECK(bus.sent_frames[i].id == frames[i].id);
+  CHECK(setpoint_of(bus.sent_frames[3]) == 2);
 }
 
 TEST_CASE("dropped frames are counted and not sent later") {
@@ -106,22 +106,22 @@ TEST_CASE("dropped frames are counted and not sent later") {
   outbox.drop();
   bus.room = 10;
   outbox.flush(bus, start);
-  CHECK(bus.taken.empty());
+  CHECK(bus.sent_frames.empty());
   CHECK(outbox.expired() == 2);
   CHECK(outbox.dropped() == 1);
 }
 
 TEST_CASE("gains beyond the capacity are counted as dropped") {
   erp::Outbox outbox;
-  const std::vector<erp::CanFrame> many(erp::Outbox::most_others + 7, parameter(3));
-  outbox.put(many, 0);
+  const std::vector<erp::CanFrame> frames(erp::Outbox::max_others + 7, parameter(3));
+  outbox.put(frames, 0);
   CHECK(outbox.dropped() == 7);
 }
 
 TEST_CASE("an outbox does not use the heap") {
   erp::Outbox outbox;
   NarrowBus bus;
-  bus.taken.reserve(1000);
+  bus.sent_frames.reserve(1000);
   const erp::CanFrame frames[] = {command(3, 1), command(4, 1), parameter(0)};
   const auto before = tests::allocations();
   for (int tick = 0; tick < 50; ++tick) {

@@ -10,12 +10,12 @@ namespace can_test {
 /// Gateway and ECUs connected without loss or delay.
 struct Pair {
   erp::Robot robot;
-  Robotics robotics{robot, 1};
-  erp::RobotEcus ecus{robot, robotics.lent};
+  SimulatedChannels simulated{robot, 1};
+  erp::RobotEcus ecus{robot, simulated.channel_pointers};
   erp::Gateway gateway{robot};
 
   explicit Pair(int actuators = 5) : Pair(robot_of(actuators)) {}
-  explicit Pair(const erp::Robot& some) : robot(some) {}
+  explicit Pair(const erp::Robot& robot_model) : robot(robot_model) {}
 
   int receive(std::span<const erp::CanFrame> frames) {
     int ticks = 0;
@@ -23,8 +23,8 @@ struct Pair {
     return ticks;
   }
   std::vector<erp::CanFrame> report() {
-    robotics.tick();
-    const auto frames = ecus.report(robotics.frame);
+    simulated.tick();
+    const auto frames = ecus.report(simulated.frame);
     return {frames.begin(), frames.end()};
   }
   void send(std::span<const erp::CanFrame> frames) {

@@ -12,8 +12,8 @@
 /// Small robots and messages for bus tests.
 namespace can_test {
 
-/// `actuators` actuators, two per ECU from address 3 on; joint sensors on inputs 0 and 3 of every second
-/// ECU.
+/// `actuators` actuators, two per ECU from address 3 on; joint sensors on inputs 0 and 3 of every
+/// second ECU.
 inline erp::Robot robot_of(int actuators) {
   erp::Robot robot;
   robot.name = "rig";
@@ -35,12 +35,13 @@ inline erp::Robot robot_of(int actuators) {
   return robot;
 }
 
-/// The robot's channels with simulated converters: readings are a random walk that depends on the seed.
-class Robotics {
+/// The robot's channels with simulated converters: readings are a random walk that depends on the
+/// seed.
+class SimulatedChannels {
  public:
-  Robotics(const erp::Robot& robot, unsigned seed)
+  SimulatedChannels(const erp::Robot& robot, unsigned seed)
       : robot_(robot), channels(robot.actuators.size()), inputs_(channels.size()), random_(seed) {
-    for (ecu_channel& channel : channels) ecu_init(&channel), lent.push_back(&channel);
+    for (ecu_channel& channel : channels) ecu_init(&channel), channel_pointers.push_back(&channel);
     erp::assign(frame.robot, robot.name);
   }
 
@@ -103,7 +104,7 @@ class Robotics {
 
  public:
   std::vector<ecu_channel> channels;
-  std::vector<ecu_channel*> lent;
+  std::vector<ecu_channel*> channel_pointers;
   erp::EcuFrame frame;
 
  private:
@@ -140,16 +141,17 @@ inline erp::EcuCommand any_command(const erp::Robot& robot, std::uint64_t answer
     return std::uniform_int_distribution(low, high)(random);
   };
   erp::EcuCommand message = command_for(robot, answers, ECU_REQUEST_ARM, 0);
-  std::uint32_t kept = 0;
+  std::uint32_t commanded = 0;
   for (auto& command : erp::samples(message.channels)) {
     const int kind = between(0, 19);
     command.request = std::uint8_t(kind < 14    ? 3 + kind % 4
                                    : kind == 14 ? between(0, 255)
                                                 : between(0, 2));
     command.setpoint = between(0, 9) ? between(0, 2000) : between(INT32_MIN, INT32_MAX);
-    if (between(0, 30) != 0) message.channels._buffer[kept++] = command;  // sometimes no command
+    if (between(0, 30) != 0)
+      message.channels._buffer[commanded++] = command;  // sometimes no command
   }
-  message.channels._length = kept;
+  message.channels._length = commanded;
   return message;
 }
 

@@ -19,8 +19,8 @@
 
 namespace can_test {
 
-/// A serial CAN adapter, emulated on a pseudo-terminal and connected to the kernel's slcan: a real CAN
-/// device with states, error frames and bus-off, which virtual interfaces do not have.
+/// A serial CAN adapter, emulated on a pseudo-terminal and connected to the kernel's slcan: a real
+/// CAN device with states, error frames and bus-off, which virtual interfaces do not have.
 class SlcanAdapter {
  public:
   SlcanAdapter() {
@@ -47,21 +47,21 @@ class SlcanAdapter {
   std::string where() const { return "socketcan:" + interface_; }
   const std::string& interface() const { return interface_; }
 
-  /// Sends a message of the adapter to the kernel: a frame t1808…, counters sw100020, bus-off sb256256,
-  /// missing acknowledgement e1a.
+  /// Sends a message of the adapter to the kernel: a frame t1808…, counters sw100020, bus-off
+  /// sb256256, missing acknowledgement e1a.
   void send(const std::string& text) {
     const std::string line = text + "\r";
     REQUIRE(::write(master_, line.data(), line.size()) == ssize_t(line.size()));
   }
-  /// Stops reading from the line, as if the adapter's queue were full.
-  void stall(bool yes) { stalled_ = yes; }
+  /// Stops or resumes reading from the line; while stopped, the adapter's queue becomes full.
+  void stall(bool is_stalled) { stalled_ = is_stalled; }
 
-  /// Frames that it was given to send, as text: t0808…
+  /// Frames that the kernel has passed to the adapter, as text: t0808…
   std::vector<std::string> sent() {
     const std::lock_guard lock(guard_);
     return sent_;
   }
-  /// How often the channel was opened: each time the interface comes up.
+  /// Number of times that the channel was opened: once each time the interface comes up.
   int opened() const { return opened_; }
 
   static void system(const std::string& command) {
@@ -73,8 +73,8 @@ class SlcanAdapter {
   void read() {
     std::string line;
     while (!done_) {
-      pollfd waiting{master_, POLLIN, 0};
-      if (stalled_ || ::poll(&waiting, 1, 5) <= 0) {
+      pollfd readable{master_, POLLIN, 0};
+      if (stalled_ || ::poll(&readable, 1, 5) <= 0) {
         if (stalled_) ::usleep(500);
         continue;
       }
@@ -82,10 +82,10 @@ class SlcanAdapter {
       const ssize_t n = ::read(master_, bytes, sizeof bytes);
       for (ssize_t i = 0; i < n; ++i)
         if (bytes[i] != '\r') line += bytes[i];
-        else take(std::exchange(line, ""));
+        else handle_line(std::exchange(line, ""));
     }
   }
-  void take(const std::string& line) {
+  void handle_line(const std::string& line) {
     const std::lock_guard lock(guard_);
     if (line.starts_with("t")) sent_.push_back(line);
     if (line == "O") ++opened_;

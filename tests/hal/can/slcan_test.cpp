@@ -1,5 +1,5 @@
-// Run by tests/hal/uml/run_in_uml.sh. The gateway's reaction to bus faults, on a real CAN device whose
-// adapter reports them.
+// Run by tests/hal/uml/run_in_uml.sh. The gateway's reaction to bus faults, on a real CAN device
+// whose adapter reports them.
 #include <catch2/catch.hpp>
 #include <chrono>
 
@@ -24,9 +24,10 @@ std::int64_t now_ns() {
 struct Line {
   SlcanAdapter adapter;
   erp::BusKeeper keeper{"left", erp::open_bus(adapter.where(), {.window = 2})};
-  std::vector<std::pair<std::string, std::int64_t>> content;  ///< code and time
+  std::vector<std::pair<std::string, std::int64_t>> notices;  ///< code and time
 
-  /// Does what the gateway process does, for a time: reads, supervises, and commands every 2 ms if requested.
+  /// Acts as the gateway process for a time: reads, supervises, and sends a command every 2 ms if
+  /// requested.
   void pass(std::int64_t for_ns, bool commanding = false) {
     std::int64_t next_command = now_ns();
     for (const auto end = now_ns() + for_ns; now_ns() < end;) {
@@ -34,28 +35,28 @@ struct Line {
       keeper.bus().receive(frames, 0.001);
       if (commanding && now_ns() >= next_command) command(), next_command += 2 * ms;
       for (const auto& notice : keeper.supervise(now_ns()))
-        content.emplace_back(notice.code, now_ns());
+        notices.emplace_back(notice.code, now_ns());
     }
   }
   void command() {
-    const frame_command said_now{{{3, ++setpoint}, {FRAME_REQUEST_NONE, 0}}, 0, 0};
+    const frame_command content_of_command{{{3, ++setpoint}, {FRAME_REQUEST_NONE, 0}}, 0, 0};
     erp::CanFrame frame;
-    frame_pack_command(&frame, 3, &said_now);
+    frame_pack_command(&frame, 3, &content_of_command);
     keeper.post({&frame, 1}, now_ns());
   }
-  bool has_said(const std::string& code) const { return when(code) != 0; }
-  std::int64_t when(const std::string& code) const {
-    for (const auto& [what, at] : content)
-      if (what == code) return at;
+  bool was_reported(const std::string& code) const { return time_of(code) != 0; }
+  std::int64_t time_of(const std::string& code) const {
+    for (const auto& [notice, time_ns] : notices)
+      if (notice == code) return time_ns;
     return 0;
   }
-  int times(const std::string& code) const {
-    return int(std::count_if(content.begin(), content.end(),
-                             [&](const auto& one) { return one.first == code; }));
+  int count_of(const std::string& code) const {
+    return int(std::count_if(notices.begin(), notices.end(),
+                             [&](const auto& notice) { return notice.first == code; }));
   }
   /// The set-points that the adapter has received after the first `from` frames.
   std::vector<int> setpoints(std::size_t from) {
-    std::vector<int> found;
+    std::vector<int> setpoints;
     const auto sent = adapter.sent();
     for (std::size_t i = from; i < sent.size(); ++i) {
       erp::CanFrame frame{0, 8, {}};
@@ -64,9 +65,9 @@ struct Line {
         frame.data[k] = std::uint8_t(std::stoi(sent[i].substr(5 + 2 * k, 2), nullptr, 16));
       frame_command command;
       REQUIRE(frame_unpack_command(&frame, &command));
-      found.push_back(command.channel[0].setpoint);
+      setpoints.push_back(command.channel[0].setpoint);
     }
-    return found;
+    return setpoints;
   }
   int setpoint = 0;
 };
@@ -89,21 +90,23 @@ TEST_CASE("error-warning, error-passive and error-active are reported, in this o
     line.adapter.send(counters);
     line.pass(20 * ms);
   }
-  REQUIRE(line.content.size() == 3);
-  CHECK(line.content[0].first == "bus_warning");
-  CHECK(line.content[1].first == "bus_passive");
-  CHECK(line.content[2].first == "bus_active");
+  REQUIRE(line.notices.size() == 3);
+  CHECK(line.notices[0].first == "bus_warning");
+  CHECK(line.notices[1].first == "bus_passive");
+  CHECK(line.notices[2].first == "bus_active");
 }
 
-/// Delay that a busy machine may add, as in tests/faults/row.hpp; the measured time is printed.
-constexpr std::int64_t scheduling = 10 * ms;
+/// Delay that a busy machine may add, as in tests/faults; the measured time is printed.
+constexpr std::int64_t scheduling_ns = 10 * ms;
 
-/// Fails if a time is not in this range, plus the scheduling delay.
-void in_time(tests::Complaints& wrong, const char* what, std::int64_t took, std::int64_t least,
-             std::int64_t most) {
-  const std::string content = what + (" after " + std::to_string(1e-6 * double(took)) + " ms");
-  std::printf("%s\n", content.c_str());
-  if (took < least - scheduling || took >= most + scheduling) wrong.push_back(content);
+/// Adds a finding if a time is not within min_ns … max_ns, extended by the scheduling delay.
+void check_time(tests::Findings& findings, const char* action, std::int64_t duration_ns,
+                std::int64_t min_ns, std::int64_t max_ns) {
+  const std::string text =
+      action + (" after " + std::to_string(1e-6 * double(duration_ns)) + " ms");
+  std::printf("%s\n", text.c_str());
+  if (duration_ns < min_ns - scheduling_ns || duration_ns >= max_ns + scheduling_ns)
+    findings.push_back(text);
 }
 
 TEST_CASE("bus-off is detected within 5 ms; after a restart the bus works again") {
@@ -113,19 +116,19 @@ TEST_CASE("bus-off is detected within 5 ms; after a restart the bus works again"
     const auto before = now_ns();
     line.adapter.send("sb256256");
     line.pass(60 * ms, true);
-    REQUIRE(line.has_said("bus_off"));
-    tests::Complaints wrong;
-    in_time(wrong, "bus-off detected", line.when("bus_off") - before, 0, 5 * ms);
-    if (!line.has_said("bus_restarted")) wrong.push_back("not restarted in 60 ms");
-    if (!wrong.empty()) return wrong;
+    REQUIRE(line.was_reported("bus_off"));
+    tests::Findings findings;
+    check_time(findings, "bus-off detected", line.time_of("bus_off") - before, 0, 5 * ms);
+    if (!line.was_reported("bus_restarted")) findings.push_back("not restarted in 60 ms");
+    if (!findings.empty()) return findings;
     CHECK(line.adapter.opened() == 2);
     const auto sent = line.adapter.sent().size();
     const int newest = line.setpoint;
     line.pass(20 * ms, true);
     const auto after = line.setpoints(sent);
-    if (after.size() <= 3) wrong.push_back(std::to_string(after.size()) + " commands in 20 ms");
+    if (after.size() <= 3) findings.push_back(std::to_string(after.size()) + " commands in 20 ms");
     else CHECK(after[0] > newest - 2);
-    return wrong;
+    return findings;
   });
 }
 
@@ -136,20 +139,20 @@ TEST_CASE("a bus with repeated bus-off is restarted three times, then stays off"
       line.adapter.send("sb256256");
       line.pass(20 * ms, true);
     }
-    CHECK(line.times("bus_restarted") == 3);
-    CHECK(line.times("bus_off_latched") == 1);
+    CHECK(line.count_of("bus_restarted") == 3);
+    CHECK(line.count_of("bus_off_latched") == 1);
     CHECK(line.keeper.given_up());
-    tests::Complaints wrong;
+    tests::Findings findings;
     std::int64_t last = 0;
-    for (const auto& [code, when] : line.content) {
+    for (const auto& [code, time_ns] : line.notices) {
       if (code != "bus_restarted") continue;
-      if (last) in_time(wrong, "bus restarted again", when - last, 100 * ms, INT64_MAX / 2);
-      last = when;
+      if (last) check_time(findings, "bus restarted again", time_ns - last, 100 * ms, INT64_MAX / 2);
+      last = time_ns;
     }
     const auto sent = line.adapter.sent().size();
     line.pass(50 * ms, true);
     CHECK(line.adapter.sent().size() == sent);
-    return wrong;
+    return findings;
   });
 }
 
@@ -164,11 +167,11 @@ TEST_CASE("an open cable is detected within 25 ms, and no burst follows when it 
       line.adapter.send("e1a");
       line.pass(2 * ms, true);
     }
-    REQUIRE(line.has_said("not_acknowledged"));
-    const auto noticed = line.when("not_acknowledged") - opened;
-    CHECK(noticed >= 20 * ms);
-    tests::Complaints wrong;
-    in_time(wrong, "open cable detected", noticed, 0, 25 * ms);
+    REQUIRE(line.was_reported("not_acknowledged"));
+    const auto detected_after_ns = line.time_of("not_acknowledged") - opened;
+    CHECK(detected_after_ns >= 20 * ms);
+    tests::Findings findings;
+    check_time(findings, "open cable detected", detected_after_ns, 0, 25 * ms);
     const auto sent = line.adapter.sent().size();
     line.pass(100 * ms, true);
     CHECK(line.adapter.sent().size() == sent);
@@ -176,16 +179,16 @@ TEST_CASE("an open cable is detected within 25 ms, and no burst follows when it 
     line.adapter.send("t1808DEADBEEF01020304");
     line.pass(20 * ms, true);
     const auto after = line.setpoints(sent);
-    if (!line.has_said("acknowledged") || after.empty())
-      wrong.push_back("closed: silent for 20 ms");
+    if (!line.was_reported("acknowledged") || after.empty())
+      findings.push_back("closed: silent for 20 ms");
     else CHECK(after[0] > newest - 2);
-    return wrong;
+    return findings;
   });
 }
 
-constexpr int fits_into_the_line = 170;  // 4 kB of 22 bytes each
+constexpr int line_capacity_frames = 170;  // 4 kB of 22 bytes each
 
-TEST_CASE("after a stalled adapter's own queue only new set-points are sent") {
+TEST_CASE("after an adapter's stall its own queue is sent, then only new set-points") {
   Line line;
   line.pass(20 * ms, true);
   line.adapter.stall(true);
@@ -199,11 +202,11 @@ TEST_CASE("after a stalled adapter's own queue only new set-points are sent") {
   int stale = 0;
   for (const int setpoint : line.setpoints(sent)) stale += setpoint <= newest - 2;
   const auto& outbox = line.keeper.outbox();
-  const int gone = int(outbox.expired() + outbox.replaced());
-  WARN(newest - stalled_at << " set-points while it was stalled; " << gone << " never left, "
+  const int lost = int(outbox.expired() + outbox.replaced());
+  WARN(newest - stalled_at << " set-points while it was stalled; " << lost << " never left, "
                            << stale << " old ones came out");
-  CHECK(stale < fits_into_the_line);
-  CHECK(gone > newest - stalled_at - fits_into_the_line);
+  CHECK(stale < line_capacity_frames);
+  CHECK(lost > newest - stalled_at - line_capacity_frames);
   CHECK(line.setpoints(sent).back() >= line.setpoint - 3);
 }
 

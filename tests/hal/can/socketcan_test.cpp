@@ -19,13 +19,16 @@ void cansend(const std::string& frame) {
 }
 }  // namespace
 
-TEST_CASE("two ends of a CAN interface receive each other's frames, in order and complete") {
-  hears_in_order(vcan0);
+TEST_CASE(
+    "two participants of a CAN interface receive each other's frames, in order and complete") {
+  receives_in_order(vcan0);
 }
-TEST_CASE("own frames are not received on a CAN interface") { hears_not_itself(vcan0); }
-TEST_CASE("all participants of a CAN interface receive the same frames") { is_heard_by_all(vcan0); }
-TEST_CASE("a receive with little room leaves the other frames in the socket") {
-  keeps_the_rest(vcan0);
+TEST_CASE("own frames are not received on a CAN interface") { does_not_receive_own_frames(vcan0); }
+TEST_CASE("all participants of a CAN interface receive the same frames") {
+  all_participants_receive(vcan0);
+}
+TEST_CASE("frames beyond the size of the receive buffer remain in the socket") {
+  keeps_remaining_frames(vcan0);
 }
 TEST_CASE("gateway and ECUs run in lockstep over SocketCAN") { runs_in_lockstep(vcan0); }
 
@@ -35,8 +38,8 @@ TEST_CASE("two interfaces are two buses") {
   const auto frame = numbered(5);
   a->send({&frame, 1});
   CHECK(same(collect(*c, 1)[0], frame));
-  erp::CanFrame more;
-  CHECK(b->receive({&more, 1}, 0) == 0);
+  erp::CanFrame extra;
+  CHECK(b->receive({&extra, 1}, 0) == 0);
 }
 
 TEST_CASE("a frame of another program is received unchanged") {
@@ -57,14 +60,14 @@ TEST_CASE("frames with 29-bit identifiers and remote requests are ignored") {
   CHECK(collect(*bus, 1)[0].id == 0x124);
 }
 
-TEST_CASE("begin and end of bus-off are detected from the controller's error frames") {
+TEST_CASE("start and end of bus-off are detected from the controller's error frames") {
   const auto bus = erp::open_bus(vcan0);
   erp::CanFrame frame;
   cansend("20000040#0000000000000000");  // CAN_ERR_BUSOFF
   while (!bus->counters().off()) CHECK(bus->receive({&frame, 1}, 10) == 0);
   CHECK(bus->counters().errors == 1);
   const auto refused = numbered(1);
-  CHECK(bus->send({&refused, 1}) == 0);  // the kernel would accept and discard it
+  CHECK(bus->send({&refused, 1}) == 0);  // the kernel would accept and discard the frame
   cansend("20000100#0000000000000000");  // CAN_ERR_RESTARTED
   while (bus->counters().off()) CHECK(bus->receive({&frame, 1}, 10) == 0);
   CHECK(bus->counters().received == 0);
@@ -74,13 +77,13 @@ TEST_CASE("an interface that goes down is detected, and works again when it is u
   const auto a = erp::open_bus("socketcan:vcan1"), b = erp::open_bus("socketcan:vcan1");
   REQUIRE(std::system("ip link set vcan1 down") == 0);
   const auto frame = numbered(3);
-  erp::CanFrame none;
-  CHECK(a->receive({&none, 1}, 10) == 0);
+  erp::CanFrame extra;
+  CHECK(a->receive({&extra, 1}, 10) == 0);
   CHECK(a->counters().off());
   CHECK(a->send({&frame, 1}) == 0);
   CHECK(a->counters().refused == 1);
   REQUIRE(std::system("ip link set vcan1 up") == 0);
-  CHECK(b->receive({&none, 1}, 10) == 0);  // reports that it was down
+  CHECK(b->receive({&extra, 1}, 10) == 0);  // reports that it was down
   CHECK(a->send({&frame, 1}) == 1);
   CHECK(same(collect(*b, 1)[0], frame));
   CHECK_FALSE(b->counters().off());
@@ -113,8 +116,8 @@ TEST_CASE("over CAN FD six commands are sent in one frame") {
   CHECK(host->in_flight() == 1);
   const auto received = collect(*robot, 6);
   for (std::size_t i = 0; i < 6; ++i) CHECK(same(received[i], commands[i]));
-  erp::CanFrame none;
-  CHECK(host->receive({&none, 1}, 10) == 0);
+  erp::CanFrame extra;
+  CHECK(host->receive({&extra, 1}, 10) == 0);
   CHECK(host->in_flight() == 0);
 }
 
@@ -123,7 +126,7 @@ TEST_CASE("an interface without CAN FD is refused for a bus planned with CAN FD"
                     Catch::Contains("interface \"vcan0\" does not carry CAN FD; `ip link set"));
 }
 
-// ---- other information of the kernel ----
+// ---- frames in flight, traces ----
 
 TEST_CASE("no more frames are in flight than the window allows") {
   const auto bus = erp::open_bus(vcan0, {.window = 4});
@@ -133,8 +136,8 @@ TEST_CASE("no more frames are in flight than the window allows") {
   CHECK(bus->in_flight() == 4);
   CHECK(bus->send(frames) == 0);
   CHECK(bus->counters().refused == 8);
-  erp::CanFrame none;
-  CHECK(bus->receive({&none, 1}, 10) == 0);
+  erp::CanFrame extra;
+  CHECK(bus->receive({&extra, 1}, 10) == 0);
   CHECK(bus->in_flight() == 0);
   CHECK(bus->send(frames) == 4);
 }
@@ -152,8 +155,8 @@ TEST_CASE("the trace of TraceWriter equals candump's, line by line") {
     collect(*b, 40);
     b->send(frames);
     collect(*a, 40);
-    erp::CanFrame none;
-    a->receive({&none, 1}, 0);
+    erp::CanFrame extra;
+    a->receive({&extra, 1}, 0);
     a->record(nullptr);
   }
   REQUIRE(std::system("sleep 1; kill $(cat /run/candump.pid); sleep 1") == 0);

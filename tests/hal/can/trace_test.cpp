@@ -11,7 +11,7 @@ using namespace can_test;
 
 namespace {
 
-std::string in_temp(const std::string& name) {
+std::string temporary_path(const std::string& name) {
   return (std::filesystem::temp_directory_path() / (std::to_string(getpid()) + name)).string();
 }
 
@@ -48,7 +48,7 @@ TEST_CASE("the error of a trace that cannot be written or read gives the reason"
 }
 
 TEST_CASE("a trace contains the sent and received frames of a bus and replays the received ones") {
-  const auto where = free_udp_bus(), file = in_temp("trace.log");
+  const auto where = free_udp_bus(), file = temporary_path("trace.log");
   Pair pair;
   std::vector<erp::EcuFrame> original;
   {
@@ -77,16 +77,16 @@ TEST_CASE("a trace contains the sent and received frames of a bus and replays th
   CHECK(sent == 40 * 3);
   CHECK(received >= 40 * 9);
 
-  erp::Gateway again(pair.robot);
+  erp::Gateway replayed(pair.robot);
   const auto bus = erp::open_bus("trace:" + file);
   std::array<erp::CanFrame, 64> frames;
   std::size_t ticks = 0;
   while (ticks < original.size()) {
     const auto count = bus->receive(frames, 2);
     for (std::size_t i = 0; i < count; ++i)
-      if (again.receive(frames[i]) == erp::FrameResult::tick)
-        CHECK(difference(again.frame(), original[ticks++]) == "");
+      if (replayed.receive(frames[i]) == erp::FrameResult::tick)
+        CHECK(difference(replayed.frame(), original[ticks++]) == "");
   }
-  CHECK(again.counters().lost == 0);
+  CHECK(replayed.counters().lost == 0);
   std::filesystem::remove(file);
 }

@@ -1,8 +1,8 @@
 #!/bin/bash
-# graph_over_socketcan.sh BIN_DIR SOURCE_DIR GRAPH: a complete graph, closed over the kernel's CAN.
+# graph_over_socketcan.sh BIN_DIR SOURCE_DIR GRAPH: runs a complete graph over the kernel's CAN.
 #
 # In user-mode Linux the gateway and the simulated robot use vcan0, and vcan1 if the robot has a second
-# bus; outside, the same graph runs without a bus. In lockstep all recorded rows must be identical, bit by
+# bus; outside of it the same graph runs without a bus. In lockstep all recorded rows must be identical, bit by
 # bit.
 set -u
 bin=$1 source=$2 graph=$3
@@ -18,22 +18,22 @@ cat > "$exchange/run" << RUN
 cd "$source"
 bin="$bin"
 . "$here/same_rows.sh"
-launched launch/$graph.xml "\$TMPDIR/out" "\$@" && recorded "\$TMPDIR/out/$graph.mcap"
+launch_graph launch/$graph.xml "\$TMPDIR/out" "\$@" && print_recording "\$TMPDIR/out/$graph.mcap"
 RUN
 chmod +x "$exchange/run"
 
-for go in $goes; do
+for attempt in $attempts; do
   rm -rf "$exchange/out"
   TMPDIR=$exchange "$exchange/run" > "$exchange/without" 2>&1
-  printf '%s without a bus, go %d: ' "$graph" "$go"
-  whole "$exchange/without" && break
+  printf '%s without a bus, attempt %d: ' "$graph" "$attempt"
+  is_complete "$exchange/without" && break
 done
 [ $? = 0 ] || { cat "$exchange/without"; exit 1; }
 
-for go in $goes; do
+for attempt in $attempts; do
   "$here/run_in_uml.sh" "$exchange/run" --device can \
     --set gateway.bus=socketcan:vcan0 --set sim.bus=socketcan:vcan0 > "$exchange/guest" 2>&1
-  printf '%s over vcan, go %d: ' "$graph" "$go"
+  printf '%s over vcan, attempt %d: ' "$graph" "$attempt"
   same_rows "$exchange/without" "$exchange/guest"
   case $? in 0) exit 0 ;; 1) break ;; esac
   tail -n 5 "$exchange/guest"

@@ -1,29 +1,29 @@
 #!/bin/bash
 # microcontroller.sh BIN_DIR ECU_ELF SOURCE_DIR: a complete graph with an emulated microcontroller.
 #
-# The ECU's bare-metal program runs in QEMU. One of its serial lines speaks slcan to a kernel in
-# user-mode Linux, where it is a real CAN device; the other has its converters. In that kernel runs
-# the graph: gateway, plant, controllers, logger, and the robot's simulator. In lockstep every row it
-# records must be what it is when the ECU is a process of this machine, bit by bit.
+# The ECU's bare-metal program runs in QEMU. One of its serial lines is connected by slcan to a kernel in
+# user-mode Linux, where it is a real CAN device. The other line connects its converters. The graph runs in
+# that kernel: gateway, plant, controllers, logger, and the robot's simulator. In lockstep every recorded row
+# must equal, bit by bit, the row recorded with the ECU as a process of this machine.
 set -u
 bin=$1 elf=$2 source=$3
 here=$(dirname "$(realpath "$0")")
 . "$here/same_rows.sh"
 exchange=$(mktemp -d)
 started=()
-# KILL: they leave nothing behind, and an emulator that waits for its serial line may ignore TERM.
+# KILL, because an emulator that waits for its serial line may ignore TERM; no process has files to clean up.
 trap 'kill -KILL "${started[@]}" 2> /dev/null; wait; rm -rf "$exchange"' EXIT
 export ERP_DOMAIN=$((1 + $$ % 200))
 bus=udp:239.255.42.1:$((20000 + 16 * ERP_DOMAIN)) converters=$((24000 + ERP_DOMAIN))
 
-# run OUT SETTING…: the graph, and its export.
+# run OUT SETTING…: runs the graph and prints its export.
 cat > "$exchange/run" << RUN
 #!/bin/bash
 cd "$source"
 bin="$bin"
 . "$here/same_rows.sh"
 out=\$1 && shift
-launched launch/force_step.xml "\$out" --device can "\$@" && recorded "\$out/force_step.mcap"
+launch_graph launch/force_step.xml "\$out" --device can "\$@" && print_recording "\$out/force_step.mcap"
 RUN
 cat > "$exchange/guest" << GUEST
 #!/bin/bash
@@ -45,7 +45,7 @@ with_process() {
   kill $ecu && wait $ecu 2> /dev/null
 }
 
-# Time is counted in instructions: a stalled machine does not look like a hanging program.
+# Time is counted in instructions, so that a stall of the machine is not detected as a hang of the program.
 with_microcontroller() {
   "$source/firmware/board/cortex_m/identity.sh" 0 3 1 7 > "$exchange/identity.bin"
   qemu-system-arm -M netduinoplus2 -icount shift=3 -display none -monitor none -kernel "$elf" \
@@ -63,16 +63,16 @@ with_microcontroller() {
   kill -KILL $qemu && wait $qemu 2> /dev/null
 }
 
-for go in $goes; do
+for attempt in $attempts; do
   with_process
-  printf 'around a process, go %d: ' "$go"
-  whole "$exchange/process" && break
+  printf 'around a process, attempt %d: ' "$attempt"
+  is_complete "$exchange/process" && break
 done
 [ $? = 0 ] || { cat "$exchange/process"; exit 1; }
 
-for go in $goes; do
+for attempt in $attempts; do
   with_microcontroller
-  printf 'around the microcontroller, go %d: ' "$go"
+  printf 'around the microcontroller, attempt %d: ' "$attempt"
   same_rows "$exchange/process" "$exchange/guest.txt"
   case $? in 0) exit 0 ;; 1) break ;; esac
   tail -n 5 "$exchange/guest.txt"

@@ -2,9 +2,9 @@
 # run_in_uml.sh PROGRAM [ARGUMENT…]: runs a program under a kernel that has CAN.
 #
 # Most build machines and all containers lack AF_CAN. User-mode Linux is a kernel in a process; it
-# needs no rights. The program sees this machine's files read-only, is root there, and finds the
-# virtual CAN interfaces vcan0 and vcan1 (classic), vcan3 and vcan4 (CAN FD) up and vcan2 down; the
-# kernel's slcan, can-gw, tbf and netem are there as well. Its exit status is passed on.
+# needs no privileges. The program runs as root and has read-only access to the files of this machine. The virtual
+# CAN interfaces vcan0 and vcan1 (classic), vcan3 and vcan4 (CAN FD) are up, and vcan2 is down. The kernel has
+# slcan, can-gw, tbf and netem. The exit status of the program is returned.
 # Time limit 300 s, or ERP_UML_SECONDS: then the kernel is ended, because it may hang on a busy machine.
 # With ERP_UML_SERIAL="/dev/pts/N /dev/pts/M" these terminals are its serial lines /run/ttyS0, ttyS1.
 # Debian: user-mode-linux kmod iproute2 can-utils gcc. Sanitizers other than UBSan do not run in it.
@@ -44,7 +44,7 @@ for module in net/can/can net/can/can-raw net/can/can-gw drivers/net/can/dev/can
   set -- $module
   insmod "$modules/$1.ko" $2 || echo "run_in_uml.sh: no kernel module $1"
 done
-echo 8388608 | tee /proc/sys/net/core/rmem_max > /proc/sys/net/core/rmem_default  # it is slow
+echo 8388608 | tee /proc/sys/net/core/rmem_max > /proc/sys/net/core/rmem_default  # the guest reads slowly
 ip link set lo up
 for interface in vcan0 vcan1 vcan2 vcan3 vcan4; do
   ip link add "$interface" type vcan
@@ -60,8 +60,8 @@ sleep 60
 INIT
 chmod +x "$exchange/init"
 
-registers=$exchange/whole_registers.so  # see there
-cc -shared -fPIC -O2 -o "$registers" "$(dirname "$0")/whole_registers.c" || exit 1
+registers=$exchange/register_state.so  # described in register_state.c
+cc -shared -fPIC -O2 -o "$registers" "$(dirname "$0")/register_state.c" || exit 1
 
 lines=() && for terminal in ${ERP_UML_SERIAL:-}; do lines+=("ssl${#lines[@]}=tty:$terminal"); done
 
@@ -71,8 +71,8 @@ PATH=$PATH:/usr/sbin:/sbin LD_PRELOAD=$registers setsid linux.uml mem=256M \
   "${lines[@]}" \
   init="$exchange/init" < /dev/null &
 uml=$!
-patience_s=${ERP_UML_SECONDS:-300}
-while kill -0 "$uml" 2> /dev/null && ((SECONDS < patience_s)); do sleep 0.2; done
+timeout_s=${ERP_UML_SECONDS:-300}
+while kill -0 "$uml" 2> /dev/null && ((SECONDS < timeout_s)); do sleep 0.2; done
 status=$(cat "$exchange/status" 2> /dev/null)
-[ -n "$status" ] || { echo "run_in_uml.sh: the guest did not reach the end within $patience_s s" >&2; exit 1; }
+[ -n "$status" ] || { echo "run_in_uml.sh: the guest did not end within $timeout_s s" >&2; exit 1; }
 exit "$status"

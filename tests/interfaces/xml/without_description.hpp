@@ -9,9 +9,9 @@
 template <class T>
 std::vector<std::string> without_description(const std::string& root) {
   std::vector<xml::Description> descriptions;
-  T item{};
+  T defaults{};
   xml::Describer describer(descriptions);
-  item.visit(describer);
+  defaults.visit(describer);
   std::vector<std::string> names;
   std::string element = root;
   for (const auto& d : descriptions) {

@@ -11,13 +11,14 @@ namespace {
 
 using sim::World;
 
-// Chosen: 0.4 kg; at 0 V the friction of the gearbox holds up to 15.6 N.
+// Chosen: the weight of 0.4 kg does not turn the motor. At 0 V the gearbox friction resists forces
+// up to 15.6 N.
 constexpr double mass_kg = 0.4, g = 9.81, line_m = 0.3, dt_s = 1e-4;
 const double kappa = rigs::hinge_tendon().stiffness_N_per_m;
 const double damping = rigs::hinge_tendon().damping_N_s_per_m;
 
 /// A free body below a point of the base, on one tendon that is taut with zero tension.
-erp::Robot hung() {
+erp::Robot suspended_robot() {
   erp::Robot robot =
       rigs::robot({rigs::root(), rigs::bone("weight", mass_kg, {}, {1e-3, 1e-3, 1e-3})},
                   {rigs::joint("float", erp::JointType::free, "base", "weight")});
@@ -31,33 +32,33 @@ erp::Robot hung() {
   return robot;
 }
 
-/// Δx
+/// Δx, the elongation of the tendon.
 double stretch_m(const World& world) {
   const sim::ActuatorReading& line = world.actuators()[0];
   return line.length_m - line_m - line.line_m;
 }
 
-// at rest: κ Δx = m g
-double rest_error() {
-  World world(hung());
+// At rest: κ Δx = m g
+double rest_stretch_error() {
+  World world(suspended_robot());
   for (int k = 0; k < 20000; ++k) world.step(std::vector{0.0}, dt_s);
-  return relative(stretch_m(world), mass_kg * g / kappa);
+  return relative_error(stretch_m(world), mass_kg * g / kappa);
 }
 
-// m ẍ = −κ x − D ẋ about that rest: ω_d = √(κ/m − (D/2m)²)
-double swing_error() {
-  World world(hung());
-  const double found_s =
+// About the position at rest: m ẍ = −κ x − D ẋ, ω_d = √(κ/m − (D/2m)²)
+double frequency_error() {
+  World world(suspended_robot());
+  const double measured_period_s =
       mean_period_s(world, 8, dt_s, [&] { return stretch_m(world) - mass_kg * g / kappa; });
   const double decay_per_s = damping / (2 * mass_kg);
-  return relative(2 * std::numbers::pi / found_s,
-                  std::sqrt(kappa / mass_kg - decay_per_s * decay_per_s));
+  return relative_error(2 * std::numbers::pi / measured_period_s,
+                        std::sqrt(kappa / mass_kg - decay_per_s * decay_per_s));
 }
 
-/// The body starts upwards at 1 m/s where the tendon is slack by 5 mm. It returns there with the same speed after
-/// 0.2 s. Chosen.
+/// The largest tension of a slack tendon. Chosen: the body starts upwards at 1 m/s where the tendon
+/// is slack by 5 mm. It returns to this place with the same speed after 0.2 s.
 double slack_tension_N() {
-  World world(hung());
+  World world(suspended_robot());
   world.set_joint(0, {erp::JointType::free, {1, 0, 0, 0}, {}, {0, 0, 0.005}, {0, 0, 1}});
   double worst_N = world.actuators()[0].tension_N;
   for (int k = 0; k < 2000; ++k) {
@@ -69,9 +70,9 @@ double slack_tension_N() {
 
 }  // namespace
 
-Figures hung_mass() {
-  return {{5, "stretch under a suspended mass at rest, relative", rest_error(), 1e-9, ""},
-          {5, "angular frequency of its damped oscillation at 0.1 ms, relative", swing_error(),
+Figures suspended_mass() {
+  return {{5, "stretch under a suspended mass at rest, relative", rest_stretch_error(), 1e-9, ""},
+          {5, "angular frequency of its damped oscillation at 0.1 ms, relative", frequency_error(),
            1e-3, ""},
           {5, "tension of a slack tendon", slack_tension_N(), 0, "N"}};
 }

@@ -1,4 +1,4 @@
-// Two processes of the same component of one robot: the later one exits.
+// Two processes of the same component of one robot: the process that joined later exits.
 #include <catch2/catch.hpp>
 
 #include "tests/system/background.hpp"

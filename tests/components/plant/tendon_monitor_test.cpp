@@ -38,16 +38,18 @@ struct SlackTendon {
 }  // namespace
 
 TEST_CASE(
-    "after a tendon snaps the force law runs for 16 ms, 30 mm are wound slowly, then off follows") {
+    "after a tendon snaps the force law runs for 16 ms, 30 mm are wound slowly, then the ECU is "
+    "off") {
   SlackTendon snapped;
   snapped.bench.run();
-  int forced = 0;
-  while (snapped.period(20, 0).request == ECU_REQUEST_FORCE) ++forced;
-  CHECK(forced == 8);  // the ninth period is 16 ms after the first
+  int force_periods = 0;
+  while (snapped.period(20, 0).request == ECU_REQUEST_FORCE) ++force_periods;
+  CHECK(force_periods == 8);  // the ninth period is 16 ms after the first
   CHECK(snapped.notices("tendon_slack").size() == 1);
-  int slow = 1;
-  while (snapped.period(20, 0).request == ECU_REQUEST_LENGTH && slow < 5000) ++slow;
-  CHECK(slow * 0.002 * 0.010 == Approx(0.030 - 10 * 0.037 * 0.002).epsilon(0.02));
+  int winding_periods = 1;
+  while (snapped.period(20, 0).request == ECU_REQUEST_LENGTH && winding_periods < 5000)
+    ++winding_periods;
+  CHECK(winding_periods * 0.002 * 0.010 == Approx(0.030 - 10 * 0.037 * 0.002).epsilon(0.02));
   CHECK(snapped.notices("tendon_snapped").size() == 1);
   CHECK(-snapped.line_m == Approx(0.030).epsilon(0.02));
   for (int k = 0; k < 100; ++k) CHECK(snapped.period(20, 0).request == ECU_REQUEST_OFF);
@@ -80,9 +82,9 @@ TEST_CASE("after mode off, slack is taken up from the new line length") {
   tendon.bench.ecu_reports(ECU_STATE_IDLE, 0, tendon.encoder(), 0);
   tendon.bench.request();
   tendon.bench.run();
-  int forced = 0;
-  while (tendon.period(20, 0).request == ECU_REQUEST_FORCE) ++forced;
-  CHECK(forced == 8);
+  int force_periods = 0;
+  while (tendon.period(20, 0).request == ECU_REQUEST_FORCE) ++force_periods;
+  CHECK(force_periods == 8);
   CHECK(tendon.line_m == Approx(0.010 - 8 * 0.037 * 0.002).margin(5e-5));
 }
 

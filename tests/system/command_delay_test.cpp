@@ -1,4 +1,5 @@
-// A late bus is detected in recordings of a running graph, from the commands sent and the commands executed.
+// A delay of the bus is detected in recordings of a running graph, from the sent and the executed
+// commands.
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -12,8 +13,8 @@ namespace {
 
 const std::string configs = ERP_SOURCE_DIR "/configs/hinge_rig/";
 
-/// The rig with force control on the host. Its commands are voltages, so the control law of the ECU cannot be used to
-/// infer them.
+/// The rig with force control on the host. Its commands are voltages, so the control law of the ECU
+/// cannot be used to infer them.
 struct Rig {
   Folder folder;
 
@@ -53,12 +54,13 @@ TEST_CASE("a command delay of 20 ms is identified within 2 ms and closes the fre
   INFO(outcome.output);
   REQUIRE(outcome.exit_code == 0);
   std::ifstream file(rig.folder / "found/diagnosis.json");
-  const auto d = nlohmann::json::parse(file);
-  CHECK(d["where"][0]["stage"] == "bus");
-  const auto& delay = d["effects"][0];  // delayed commands and delayed frames are indistinguishable
+  const auto diagnosis = nlohmann::json::parse(file);
+  CHECK(diagnosis["where"][0]["stage"] == "bus");
+  const auto& delay =
+      diagnosis["effects"][0];  // delayed commands and delayed frames are indistinguishable
   CHECK_THAT(delay["type"].get<std::string>(), Contains("bus_") && Contains("_delay"));
   CHECK(delay["parameters"]["delay_s"].get<double>() == Approx(0.02).margin(0.002));
-  CHECK(d["gap"]["free_running"]["closed"].get<double>() > 0.95);
+  CHECK(diagnosis["gap"]["free_running"]["closed"].get<double>() > 0.95);
 }
 
 TEST_CASE("without a delay the bus is evaluated and the verdict is no_gap") {
