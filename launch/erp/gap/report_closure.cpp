@@ -13,14 +13,9 @@ using xml::escaped;
 
 namespace {
 
-<<<<<<< HEAD:launch/erp/gap/report_closure.cpp
 /// Gap closure of a channel in percent; without a gap, a text.
-std::string closed_of(const Closed& c, bool with_interval) {
-  constexpr double new_gap_factor = 1.5;  // chosen
-=======
-/// Gap closure of a channel; text where a percentage has no meaning.
 std::string closed_of(const ClosedGap& c, bool with_interval) {
->>>>>>> w1:launch/erp/gap/report_how_far.cpp
+  constexpr double new_gap_factor = 1.5;  // chosen
   if (!c.has_gap())
     return c.after > new_gap_factor * std::max(c.before, c.floor) ? "no gap before, gap after"
                                                                   : "–";

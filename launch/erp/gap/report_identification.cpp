@@ -25,7 +25,6 @@ std::string page::ranking(const Diagnosis& d) {
   std::vector<std::vector<double>> cells;
   for (const StageGap& gap : d.stages)
     columns.push_back(fmt::format("{} {}", sim::effects::word(gap.stage), gap.on));
-<<<<<<< HEAD:launch/erp/gap/report_identification.cpp
   for (std::size_t k = 0; k < d.ranked.size() && k < max_effects; ++k) {
     const IdentifiedEffect& effect = d.ranked[k];
     bars.push_back({name_of(effect), fmt::format("{:.1f} %", 100 * effect.gain), effect.gain,
@@ -33,16 +32,7 @@ std::string page::ranking(const Diagnosis& d) {
     constexpr std::size_t max_columns = 24;  // width of the page
     if (effect.signature.empty() || columns.size() > max_columns) continue;
     rows.push_back(name_of(effect)), cells.push_back(effect.signature);
-    cells.back().push_back(std::abs(effect.likeness));
-=======
-  for (std::size_t k = 0; k < d.ranked.size() && k < most; ++k) {
-    const IdentifiedEffect& n = d.ranked[k];
-    bars.push_back({name_of(n), fmt::format("{:.1f} %", 100 * n.gain), n.gain, n.gain_interval.low,
-                    n.gain_interval.high, n.supported});
-    if (n.signature.empty() || columns.size() > 24) continue;
-    rows.push_back(name_of(n)), cells.push_back(n.signature);
-    cells.back().push_back(std::abs(n.similarity));
->>>>>>> w1:launch/erp/gap/report_which.cpp
+    cells.back().push_back(std::abs(effect.similarity));
   }
   columns.push_back("similarity to the first");
   std::string html =
