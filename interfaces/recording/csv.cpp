@@ -21,9 +21,9 @@ struct Cell {
   std::size_t column = 1;  ///< position of its first character in the line, from 1
 };
 
-class Parser {
+class CsvParser {
  public:
-  Parser(const std::string& path, std::string_view text) : path_(path), rest_(text) {
+  CsvParser(const std::string& path, std::string_view text) : path_(path), rest_(text) {
     if (rest_.starts_with(byte_order_mark)) rest_.remove_prefix(byte_order_mark.size());
   }
 
@@ -179,6 +179,8 @@ class Parser {
 
 }  // namespace
 
-Table parse_csv(const std::string& path, std::string_view text) { return Parser(path, text).run(); }
+Table parse_csv(const std::string& path, std::string_view text) {
+  return CsvParser(path, text).run();
+}
 
 }  // namespace recording

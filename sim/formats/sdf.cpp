@@ -11,8 +11,8 @@ namespace {
 
 using xml::Tree;
 
-constexpr double unlimited = 3.14159;  // rad: half a turn, rounded down
-constexpr auto world_link = "world";
+constexpr double half_turn_rad = 3.14159;  // rad: half a turn, rounded down
+constexpr auto sdf_world = "world";
 constexpr const char* moments[]{"ixx", "iyy", "izz", "ixy", "ixz", "iyz"};
 
 std::string words(const std::vector<double>& values) {
@@ -92,12 +92,12 @@ class Sdf {
     for (const Foreign& joint : model_.all("joint")) add(joint);
     std::vector<Link> floating;
     for (const Link& link : linkage_.links)
-      if (link.name != world_link && !fixed_to_world_.contains(link.name) && !has_joint(link.name))
+      if (link.name != sdf_world && !fixed_to_world_.contains(link.name) && !has_joint(link.name))
         floating.push_back(link);
     for (const Link& link : floating) {
       ensure_world_link();
       linkage_.joints.push_back({.name = link.name + "_floats",
-                                 .parent = world_link,
+                                 .parent = sdf_world,
                                  .child = link.name,
                                  .type = erp::JointType::free,
                                  .at_m = poses_.at(link.name).translation()});
@@ -110,8 +110,8 @@ class Sdf {
     return std::ranges::find(linkage_.joints, link, &Connection::child) != linkage_.joints.end();
   }
   void ensure_world_link() {
-    if (std::ranges::find(linkage_.links, world_link, &Link::name) == linkage_.links.end())
-      linkage_.links.push_back({.name = world_link});
+    if (std::ranges::find(linkage_.links, sdf_world, &Link::name) == linkage_.links.end())
+      linkage_.links.push_back({.name = sdf_world});
   }
 
   Link link_of(const Foreign& element) const {
@@ -141,11 +141,11 @@ class Sdf {
                      "give the name of a link of the model");
     const Eigen::Isometry3d at = child->second * pose_in(element);
     joint.at_m = at.translation();
-    if (joint.parent == world_link && joint.type == erp::JointType::fixed) {
+    if (joint.parent == sdf_world && joint.type == erp::JointType::fixed) {
       fixed_to_world_[joint.child] = true;
       return;
     }
-    if (joint.parent == world_link) ensure_world_link();
+    if (joint.parent == sdf_world) ensure_world_link();
     if (joint.type == erp::JointType::revolute) set_axis(joint, element.need("axis"), at);
     linkage_.joints.push_back(joint);
   }
@@ -154,8 +154,8 @@ class Sdf {
     const auto v = axis.need("xyz").numbers(3);
     joint.axis = at.linear() * Vec3(v[0], v[1], v[2]);
     if (const auto limit = axis.one("limit")) {
-      joint.min_rad = std::max(-unlimited, limit->number_in("lower", -unlimited));
-      joint.max_rad = std::min(unlimited, limit->number_in("upper", unlimited));
+      joint.min_rad = std::max(-half_turn_rad, limit->number_in("lower", -half_turn_rad));
+      joint.max_rad = std::min(half_turn_rad, limit->number_in("upper", half_turn_rad));
     }
     if (const auto dynamics = axis.one("dynamics")) {
       joint.viscous_Nm_s_per_rad = dynamics->number_in("damping", 0);
@@ -181,8 +181,7 @@ std::string to_sdf(const erp::Robot& robot) {
   for (std::size_t k = 0; k < bodies.size(); ++k) add_link(model, bodies[k], origins[k]);
   for (const erp::Body& body : bodies)
     if (std::ranges::find(joints, body.name, &erp::Joint::child) == joints.end())
-      add_joint(model, std::string(world_link) + "_to_" + body.name, "fixed", world_link,
-                body.name);
+      add_joint(model, std::string(sdf_world) + "_to_" + body.name, "fixed", sdf_world, body.name);
   for (const erp::Joint& joint : joints) add_joint(model, joint);
   return xml::write_tree(root);
 }

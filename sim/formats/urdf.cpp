@@ -11,8 +11,8 @@ namespace {
 
 using xml::Tree;
 
-constexpr double unlimited = 3.14159;  // rad: half a turn, rounded down
-constexpr auto world_link = "world";
+constexpr double unlimited_rad = 3.14159;  // rad: half a turn, rounded down
+constexpr auto urdf_world = "world";
 
 void add_link(Tree& root, const std::string& name, const erp::Mass& mass) {
   Tree& link = root.add("link").set("name", name);
@@ -81,9 +81,9 @@ void join_roots(Tree& root, const erp::Robot& robot) {
     if (std::ranges::find(joints, body.name, &erp::Joint::child) == joints.end())
       roots.push_back(body.name);
   if (roots.size() < 2) return;
-  add_link(root, world_link, {});
+  add_link(root, urdf_world, {});
   for (const std::string& name : roots)
-    add_joint(root, std::string(world_link) + "_to_" + name, "fixed", world_link, name, {0, 0, 0});
+    add_joint(root, std::string(urdf_world) + "_to_" + name, "fixed", urdf_world, name, {0, 0, 0});
 }
 
 // Reading.
@@ -98,7 +98,7 @@ Eigen::Isometry3d origin_of(const Foreign& element) {
   return pose_of(v);
 }
 
-erp::JointType type_of(const Foreign& joint) {
+erp::JointType type_of_joint(const Foreign& joint) {
   const std::string type = joint.attribute("type").value_or("");
   if (type == "revolute" || type == "continuous") return erp::JointType::revolute;
   if (type == "fixed") return erp::JointType::fixed;
@@ -156,7 +156,7 @@ class Urdf {
     Connection joint{.name = element.name(),
                      .parent = link_of(element, "parent"),
                      .child = link_of(element, "child"),
-                     .type = type_of(element)};
+                     .type = type_of_joint(element)};
     const Eigen::Isometry3d at = pose(joint.child);
     joint.at_m = at.translation();
     if (const auto axis = element.one("axis")) {
@@ -167,7 +167,7 @@ class Urdf {
     const auto limit = element.one("limit");
     if (limit && element.attribute("type") == "revolute")
       joint.min_rad = limit->number("lower"), joint.max_rad = limit->number("upper");
-    else joint.min_rad = -unlimited, joint.max_rad = unlimited;
+    else joint.min_rad = -unlimited_rad, joint.max_rad = unlimited_rad;
     if (const auto dynamics = element.one("dynamics")) {
       if (dynamics->attribute("damping")) joint.viscous_Nm_s_per_rad = dynamics->number("damping");
       if (dynamics->attribute("friction")) joint.coulomb_Nm = dynamics->number("friction");

@@ -19,7 +19,7 @@ namespace launch::gap {
 namespace {
 
 namespace closed_loop = sim::closed_loop;
-using Json = nlohmann::json;
+using PlanJson = nlohmann::json;
 using sim::effects::name_of;
 using sim::effects::Placed;
 
@@ -28,7 +28,7 @@ constexpr std::size_t max_suspects = 4;
 // Chosen.
 constexpr double min_sigma = 3;
 
-Placed placed_of(const Json& effect, const std::string& file) {
+Placed placed_of(const PlanJson& effect, const std::string& file) {
   const auto type = effect.at("type").get<std::string>();
   auto neutral = sim::effects::neutral(type);
   if (!neutral)
@@ -41,7 +41,7 @@ Placed placed_of(const Json& effect, const std::string& file) {
   return placed;
 }
 
-bool is_same(const Json& a, const Json& b) {
+bool is_same(const PlanJson& a, const PlanJson& b) {
   return a.at("type") == b.at("type") && a.at("on") == b.at("on");
 }
 
@@ -56,29 +56,29 @@ struct Problem {
 
 /// Takes the first set of equivalent effects as suspects. Without such a set, takes the answer;
 /// without an answer, the highest-ranked candidates.
-Problem problem_of(const Json& d, const std::string& file) {
-  const auto on_bus = [](const Json& effect) {
+Problem problem_of(const PlanJson& d, const std::string& file) {
+  const auto on_bus = [](const PlanJson& effect) {
     return effect.at("type").get<std::string>().starts_with("bus_");
   };
-  std::vector<Json> set;
+  std::vector<PlanJson> set;
   std::set<int> sets;
-  for (const Json& entry : d.at("confounders")) {
+  for (const PlanJson& entry : d.at("confounders")) {
     if (on_bus(entry)) continue;
     sets.insert(entry.value("set", 0));
     if (sets.size() == 1) set.push_back(entry);
   }
   const bool split = !set.empty(), is_supported = d.at("verdict") == "supported";
   Problem problem{
-      d.at("robot"), {}, {}, sets.size() - split, !d.value("fix_first", Json::array()).empty()};
-  for (const Json& effect : d.at("effects")) {
+      d.at("robot"), {}, {}, sets.size() - split, !d.value("fix_first", PlanJson::array()).empty()};
+  for (const PlanJson& effect : d.at("effects")) {
     if (on_bus(effect)) continue;
     const bool supported = effect.at("supported").get<bool>();
     if (!split && (!is_supported || (supported && set.empty()))) set.push_back(effect);
     else if (supported &&
-             std::ranges::none_of(set, [&](const Json& s) { return is_same(s, effect); }))
+             std::ranges::none_of(set, [&](const PlanJson& s) { return is_same(s, effect); }))
       problem.identified.push_back(placed_of(effect, file));
   }
-  for (const Json& entry : set)
+  for (const PlanJson& entry : set)
     if (problem.suspects.size() < max_suspects) problem.suspects.push_back(placed_of(entry, file));
   return problem;
 }
@@ -86,8 +86,8 @@ Problem problem_of(const Json& d, const std::string& file) {
 Problem read_problem(const std::string& file) {
   const std::string text = read_text(file);
   try {
-    return problem_of(parse_diagnosis<Json>(text, file), file);
-  } catch (const Json::exception& e) {
+    return problem_of(parse_diagnosis<PlanJson>(text, file), file);
+  } catch (const PlanJson::exception& e) {
     const std::string reason = e.what();  // text after the library's error code
     throw std::invalid_argument(file + ": is not a diagnosis.json of erp gap diagnose (" +
                                 reason.substr(reason.find("] ") + 2) +

@@ -17,7 +17,7 @@
 namespace launch {
 namespace {
 
-using Names = std::set<std::string>;
+using NameSet = std::set<std::string>;
 
 constexpr auto empty_hint = "; start a graph, or set ERP_DOMAIN to the domain of its launcher\n";
 
@@ -27,12 +27,12 @@ std::string name_of(const node::Endpoint& endpoint) {
   return endpoint.component.empty() ? "?" : endpoint.component;
 }
 
-std::string joined(const Names& names) {
+std::string joined(const NameSet& names) {
   return names.empty() ? "-" : xml::joined({names.begin(), names.end()});
 }
 
 bool is_internal(const node::Endpoint& endpoint) {
-  static const Names topics{"component_state", "lifecycle_command", "event"};
+  static const NameSet topics{"component_state", "lifecycle_command", "event"};
   return topics.contains(endpoint.topic) || endpoint.component == "erp" ||
          endpoint.component.starts_with("erp ");
 }
@@ -47,7 +47,7 @@ std::string dot_name(const std::string& text) {
 
 std::vector<std::string> topic_table(const std::vector<node::Endpoint>& endpoints) {
   struct Topic {
-    Names types, writers, readers;
+    NameSet types, writers, readers;
   };
   std::map<std::string, Topic> topics;
   for (const auto& endpoint : endpoints) {
@@ -62,7 +62,7 @@ std::vector<std::string> topic_table(const std::vector<node::Endpoint>& endpoint
 }
 
 std::string to_dot(const std::vector<node::Endpoint>& endpoints, bool all) {
-  Names components, topics, edges;
+  NameSet components, topics, edges;
   for (const auto& endpoint : endpoints) {
     if (!all && is_internal(endpoint)) continue;
     const std::string component = dot_name(name_of(endpoint));

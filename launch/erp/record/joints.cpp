@@ -15,8 +15,8 @@ namespace launch {
 namespace {
 
 constexpr double period_s = 0.002;  // between two frames: the control cycle of the ECUs
-constexpr double degrees = 180 / std::numbers::pi;
-constexpr std::size_t max_points_per_curve = 2000;  // more than a screen has columns; chosen
+constexpr double degrees_per_rad = 180 / std::numbers::pi;
+constexpr std::size_t max_points_per_joint = 2000;  // more than a screen has columns; chosen
 
 using Position = std::array<double, 4>;
 
@@ -36,13 +36,13 @@ std::array<double, 3> angles(int dof, const Position& position) {
 }
 
 std::string curve(const recording::JointTrack& track, std::size_t axis) {
-  const std::size_t stride = 1 + track.positions.size() / max_points_per_curve;
+  const std::size_t stride = 1 + track.positions.size() / max_points_per_joint;
   std::string points;
   std::size_t k = 0;
   for (const auto& [sequence, position] : track.positions)
     if (k++ % stride == 0)
       points += fmt::format("{:.4f} {:.5f}\n", period_s * static_cast<double>(sequence),
-                            degrees * angles(track.dof, position)[axis]);
+                            degrees_per_rad * angles(track.dof, position)[axis]);
   return points;
 }
 
@@ -78,7 +78,8 @@ void print(const std::vector<JointError>& errors, const LogJointsOptions& option
                      options.reference_source, "joint", "frames", "RMS error", "largest", "at");
   for (const JointError& e : errors)
     out << fmt::format("{:<24} {:>8} {:>11.3f}° {:>11.3f}° {:>8.2f} s\n", e.joint, e.frames,
-                       degrees * e.rms_rad, degrees * e.largest_rad, e.largest_at_s);
+                       degrees_per_rad * e.rms_rad, degrees_per_rad * e.largest_rad,
+                       e.largest_at_s);
 }
 
 }  // namespace

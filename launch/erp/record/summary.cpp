@@ -12,7 +12,7 @@ namespace {
 
 constexpr double complete_fraction = 0.98;  // a shorter recording is reported; chosen
 
-using Values = std::vector<double>;
+using Samples = std::vector<double>;
 
 /// The signal that a mode controls.
 const char* measured_signal(erp::Mode mode) {
@@ -35,7 +35,7 @@ const char* measured_signal(erp::Mode mode) {
 struct TrackedActuator {
   std::string actuator;
   erp::Mode mode = erp::Mode::off;
-  Values time_s, target, measured;
+  Samples time_s, target, measured;
 };
 
 /// Columns of the desired value of an actuator: the published target, or without a target the
@@ -88,7 +88,7 @@ double rms_error(const TrackedActuator& tracked, std::size_t first_row) {
 }
 
 /// The row of the only change of the target; empty if there is no change or more than one.
-std::optional<std::size_t> single_step(const Values& target) {
+std::optional<std::size_t> single_step(const Samples& target) {
   std::optional<std::size_t> step;
   for (std::size_t i = 1; i < target.size(); ++i) {
     if (target[i] == target[i - 1]) continue;

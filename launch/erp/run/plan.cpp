@@ -86,7 +86,7 @@ std::vector<std::string> settings_of(const erp::Graph& graph, const RunOptions& 
   return settings;
 }
 
-std::string number(double value) {
+std::string parameter_text(double value) {
   std::ostringstream text;
   text.precision(12);
   text << value;
@@ -106,7 +106,7 @@ void fill_command_line(PlannedProcess& process, const erp::Graph& graph, const R
   // In lockstep the device counts the ticks of the run. Otherwise the launcher ends the run by its
   // own clock.
   if (process.role == Role::device && graph.duration_s > 0 && graph.time == erp::Time::lockstep)
-    add("--duration", number(graph.duration_s));
+    add("--duration", parameter_text(graph.duration_s));
   for (const auto& setting : settings_of(graph, options, process)) add("--set", setting);
   argv.push_back("--managed");
 }

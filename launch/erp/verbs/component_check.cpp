@@ -17,7 +17,7 @@
 namespace launch {
 namespace {
 
-constexpr std::int64_t timeout_ns = 10'000'000'000;  // chosen
+constexpr std::int64_t component_timeout_ns = 10'000'000'000;  // chosen
 
 /// Starts a program. Its `descriptor` (stdout or stderr) becomes the write end `pipe_end` of a
 /// pipe.
@@ -37,7 +37,7 @@ pid_t spawn(std::vector<std::string>& argv, int descriptor, int pipe_end) {
 
 /// Reads until the other side closes the pipe. Returns false at the timeout.
 bool read_all(int descriptor, std::string& text) {
-  const auto end_ns = node::monotonic_ns() + timeout_ns;
+  const auto end_ns = node::monotonic_ns() + component_timeout_ns;
   std::array<char, 4096> buffer{};
   for (;;) {
     const auto remaining_ms = (end_ns - node::monotonic_ns()) / 1'000'000;

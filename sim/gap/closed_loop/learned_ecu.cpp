@@ -15,7 +15,6 @@ using residuals::ActuatorSignals;
 using residuals::Episode;
 using Phi = Eigen::Vector<double, Regressors::count>;
 
-constexpr double tick_s = residuals::tick_s;
 constexpr std::size_t max_lag = 3, least_rows = 500;  // chosen
 constexpr std::size_t max_age_rows = 30;              // rows, age of a command; chosen
 constexpr std::size_t max_rows = 10'000;              // of a recording; chosen
@@ -104,10 +103,10 @@ Phi Regressors::next(const EcuInput& input) {
                                                : -radius_m_ * input.shaft_rad;
   const EcuInput& before = started_ ? last_ : input;
   Phi phi;
-  phi << 1, input.reference, (input.reference - before.reference) / tick_s, y,
-      started_ ? (y - last_y_) / tick_s : 0, integral_,
-      (input.shaft_rad - before.shaft_rad) / tick_s, input.current_A, input.tension_N;
-  integral_ += (input.reference - y) * tick_s;
+  phi << 1, input.reference, (input.reference - before.reference) / residuals::tick_s, y,
+      started_ ? (y - last_y_) / residuals::tick_s : 0, integral_,
+      (input.shaft_rad - before.shaft_rad) / residuals::tick_s, input.current_A, input.tension_N;
+  integral_ += (input.reference - y) * residuals::tick_s;
   last_ = input, last_y_ = y, started_ = true;
   return phi;
 }

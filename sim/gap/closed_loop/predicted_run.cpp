@@ -11,7 +11,7 @@
 namespace sim::closed_loop {
 namespace {
 
-constexpr double tick_s = 0.002;
+constexpr double ecu_tick_s = 0.002;
 
 class PredictedRun {
  public:
@@ -39,7 +39,7 @@ class PredictedRun {
       for (std::size_t a = 0; a < last_.size(); ++a)
         if (!std::isnan(row[a].reference)) last_[a] = row[a];
       simulated_.tick(commanded());
-      append_row(tick_s * static_cast<double>(table_.rows()));
+      append_row(ecu_tick_s * static_cast<double>(table_.rows()));
     }
     return std::move(table_);
   }

@@ -9,8 +9,8 @@
 namespace sim::diagnosis {
 namespace {
 
-constexpr double coarse_ratio = 1.8;  // step / step of the data sheet; chosen
-constexpr std::size_t fewest = 8;     // different readings; chosen
+constexpr double coarse_ratio = 1.8;               // step / step of the data sheet; chosen
+constexpr std::size_t min_different_readings = 8;  // different readings; chosen
 
 void add(std::vector<effects::Placed>& all, const char* type, const std::string& on, double step,
          double finest) {
@@ -76,7 +76,7 @@ std::vector<ShortInterval> short_intervals(const std::vector<double>& values, St
   std::vector<ShortInterval> all, selected;
   for (auto begin = values.begin(); begin != values.end();) {
     const auto end = std::upper_bound(begin, values.end(), *begin + length * steps.guess);
-    if (std::size_t(end - begin) >= fewest)
+    if (std::size_t(end - begin) >= min_different_readings)
       all.push_back(
           {{begin, end},
            std::max(least_coherence,
@@ -104,7 +104,7 @@ double coherence(const std::vector<ShortInterval>& all, double s) {
 
 double quantization_step(std::span<const residuals::Signal* const> readings, double finest) {
   const std::vector<double> values = distinct(readings, finest);
-  if (values.size() < fewest) return 0;
+  if (values.size() < min_different_readings) return 0;
   std::vector<double> gaps;
   for (std::size_t k = 1; k < values.size(); ++k) gaps.push_back(values[k] - values[k - 1]);
   std::ranges::sort(gaps);

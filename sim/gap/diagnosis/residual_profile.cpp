@@ -7,8 +7,8 @@
 namespace sim::diagnosis {
 namespace {
 
-constexpr std::size_t bins = 16;   // chosen
-constexpr std::size_t fewest = 5;  // windows per bin; chosen
+constexpr std::size_t bins = 16;                // chosen
+constexpr std::size_t min_windows_per_bin = 5;  // windows per bin; chosen
 constexpr const char* time_name = "time";
 
 /// Residuals of one stage with their variables, over several recordings.
@@ -57,7 +57,7 @@ struct Map {
     return static_cast<std::size_t>(std::clamp((x - low) / width, 0.0, double(bins) - 1));
   }
   double mean(std::size_t b) const {
-    return count[b] >= fewest ? sum[b] / static_cast<double>(count[b]) : 0;
+    return count[b] >= min_windows_per_bin ? sum[b] / static_cast<double>(count[b]) : 0;
   }
 };
 
@@ -65,7 +65,7 @@ Map map_of(const std::vector<double>& x, const std::vector<double>& r) {
   std::vector<double> sorted;
   for (const double v : x)
     if (!std::isnan(v)) sorted.push_back(v);
-  if (sorted.size() < bins * fewest) return {};
+  if (sorted.size() < bins * min_windows_per_bin) return {};
   std::ranges::sort(sorted);
   const double low = sorted[sorted.size() / 100], high = sorted[sorted.size() * 99 / 100];
   Map map{low, std::max((high - low) / bins, 1e-12), {}, {}, {}};
@@ -170,7 +170,7 @@ std::optional<ResidualProfile> residual_profile(const Evaluator& evaluator,
         training.variables[v].name,      training.variables[v].unit, {}, {}, {}, share,
         std::clamp(share, 0.0, constant)};
     for (std::size_t b = 0; b < bins; ++b) {
-      if (map.count[b] < fewest) continue;
+      if (map.count[b] < min_windows_per_bin) continue;
       const double mean = map.mean(b), n = static_cast<double>(map.count[b]);
       best->middle.push_back(map.low + (double(b) + 0.5) * map.width);
       best->mean.push_back(mean);

@@ -11,7 +11,7 @@
 namespace sim::diagnosis {
 namespace {
 
-constexpr int bootstrap_draws = 400;       // chosen
+constexpr int shapley_draws = 400;         // chosen
 constexpr std::size_t all_subsets_of = 6;  // largest number of effects with all subsets; chosen
 
 double factorial(std::size_t n) { return n < 2 ? 1 : static_cast<double>(n) * factorial(n - 1); }
@@ -95,7 +95,7 @@ ShapleyValues shapley_values(const Problem& problem, std::size_t count, const Bl
   const ClosedBySubset v = closed(subsets, all_blocks);
   ShapleyValues result{{}, {}, {}, v.at(total)};
   const auto interval = [&](auto of) {
-    return middle(bootstrap(all_blocks.size(), bootstrap_draws, problem.options.seed,
+    return middle(bootstrap(all_blocks.size(), shapley_draws, problem.options.seed,
                             [&](const auto& drawn) { return of(closed(subsets, drawn)); }));
   };
   for (std::size_t k = 0; k < count; ++k) {

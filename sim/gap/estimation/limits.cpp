@@ -16,7 +16,8 @@ using residuals::ActuatorSignals;
 using residuals::Signal;
 
 constexpr double near_limit = 0.97;  // of a current limit; chosen
-constexpr double excess = 0.1;       // of the current without a limit, relative to i_max; chosen
+constexpr double min_excess_current =
+    0.1;  // of the current without a limit, relative to i_max; chosen
 
 std::size_t clip_to_supply(const erp::MotorType& motor, Signal& voltage_V) {
   std::size_t clipped = 0;
@@ -36,7 +37,7 @@ std::size_t remove_limited(const erp::MotorType& motor, double period_s, Actuato
         direction * (s.voltage_V[k] - back_emf * residuals::rate_of(s.shaft_rad, k, period_s)) /
         motor.resistance_ohm;
     return std::abs(i) >= near_limit * motor.current_limit_A &&
-           unlimited_A > (1 + excess) * motor.current_limit_A;
+           unlimited_A > (1 + min_excess_current) * motor.current_limit_A;
   };
   std::vector<std::size_t> rows;
   for (std::size_t k = 1; k + 1 < s.voltage_V.size(); ++k)

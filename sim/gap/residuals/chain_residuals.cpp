@@ -9,7 +9,7 @@
 namespace sim::residuals {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_residual = std::numeric_limits<double>::quiet_NaN();
 
 /// A chain and the window of its residuals.
 struct Chain {
@@ -26,7 +26,7 @@ Signal induced_V(const Chain& c) {
   const double a = t.current_averaged;
   TwoPeriodsAt two(c.motor, c.period_s, t.driver_delay_s);
   const double delay = t.driver_delay_s / c.period_s;  // in periods
-  Signal induced(t.terminal_V.size(), nan);
+  Signal induced(t.terminal_V.size(), no_residual);
   for (std::size_t k = 1; k + 1 < induced.size(); ++k) {
     const double first_V = t.terminal_V[k - 1], middle_V = t.terminal_V[k],
                  last_V = t.terminal_V[k + 1];
@@ -71,7 +71,7 @@ void add_gearbox(const Chain& c, std::span<const std::size_t> rows, Residual& re
     const double uncertainty = c.bump.mean(c.trace.uncertainty_Nm, k);
     residual.value.push_back(
         std::isnan(residual_Nm)
-            ? nan
+            ? no_residual
             : std::copysign(std::max(0.0, std::abs(residual_Nm) - uncertainty), residual_Nm));
     residual.band.push_back(uncertainty);
   }

@@ -11,7 +11,7 @@ namespace sim::residuals {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double resting_rad_per_s = 0.02;  // chosen: an encoder step in a few rows
+constexpr double resting_shaft_rad_per_s = 0.02;  // chosen: an encoder step in a few rows
 
 using effects::Sloped;
 
@@ -204,7 +204,7 @@ class Tracer {
     for (std::size_t k = 1; k + 1 < rows_; ++k) {
       out_.motor_Nm[k] = m_.motor.gear_ratio * m_.motor.torque_Nm_per_A * mean_current_A(k);
       const double omega = out_.speed_rad_per_s[k];
-      if (!(std::abs(omega) > resting_rad_per_s)) continue;
+      if (!(std::abs(omega) > resting_shaft_rad_per_s)) continue;
       const double before = directions_[k], after = directions_[k + 1];
       const double direction = (before + after) / 2;
       if (std::abs(direction) == 1) {
@@ -229,7 +229,7 @@ class Tracer {
     constexpr double small_fraction = 0.02;  // of the rms speed; chosen
     const double uncertainty = angle_uncertainty_rad() / period_s_;
     const bool is_fine =
-        uncertainty < std::max(resting_rad_per_s, small_fraction * rms(out_.speed_rad_per_s));
+        uncertainty < std::max(resting_shaft_rad_per_s, small_fraction * rms(out_.speed_rad_per_s));
     const auto speed = [&](std::size_t k) {
       return is_fine ? (theta[k] - theta[k - 1]) / period_s_
                      : (out_.speed_rad_per_s[k - 1] + out_.speed_rad_per_s[k]) / 2;

@@ -16,11 +16,11 @@ double rms(const Eigen::RowVectorXd& values) {
   return count > 0 ? std::sqrt(square / count) : 0;
 }
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double resting_rad_per_s = 0.02;    // a slower joint may stick; chosen
-constexpr double near_stop_rad = 0.02;        // within this distance a stop may push; chosen
-constexpr double stop_deflection_rad = 0.06;  // largest deflection of a stop; chosen
-constexpr double stop_Nm_per_rad = 20;        // slope of the residual beyond it; chosen
+constexpr double no_balance = std::numeric_limits<double>::quiet_NaN();
+constexpr double resting_joint_rad_per_s = 0.02;  // a slower joint may stick; chosen
+constexpr double near_stop_rad = 0.02;            // within this distance a stop may push; chosen
+constexpr double stop_deflection_rad = 0.06;      // largest deflection of a stop; chosen
+constexpr double stop_Nm_per_rad = 20;            // slope of the residual beyond it; chosen
 
 /// Smallest and largest value in the window around a row.
 std::pair<double, double> range(const Signal& signal, const Bump& bump, std::size_t row) {
@@ -146,7 +146,7 @@ bool Stages::add_joint_torque(std::size_t j, const JointReading& reading,
   if (torque.size() == 1) torque[0] -= acting.joint_torque(reading.position[0]).value;
   torque += joint.viscous_Nm_s_per_rad * velocity;
   if (torque.size() == 3 && near_stop(reading, joint, speed, windows_.half_width_s)) return false;
-  if (speed < resting_rad_per_s) return torque.size() == 1;
+  if (speed < resting_joint_rad_per_s) return torque.size() == 1;
   torque += (joint.coulomb_Nm + acting.joint_friction_Nm(speed)) * velocity / speed;
   return true;
 }
@@ -154,7 +154,7 @@ bool Stages::add_joint_torque(std::size_t j, const JointReading& reading,
 Eigen::MatrixXd Stages::bones(const Episode&, const JointTrace& joints,
                               std::span<const std::size_t> rows) {
   const auto columns = static_cast<Eigen::Index>(joints.complete ? rows.size() : 0);
-  Eigen::MatrixXd torques = Eigen::MatrixXd::Constant(bones_.coordinates(), columns, nan);
+  Eigen::MatrixXd torques = Eigen::MatrixXd::Constant(bones_.coordinates(), columns, no_balance);
   for (Eigen::Index k = 0; k < columns; ++k) {
     const Motion& motion = joints.motions[static_cast<std::size_t>(k)];
     if (!motion.valid) continue;
@@ -163,7 +163,7 @@ Eigen::MatrixXd Stages::bones(const Episode&, const JointTrace& joints,
       const int first = bones_.first_of(static_cast<int>(j));
       if (first < 0) continue;
       auto part = torque.segment(first, coordinates_of(motion.joints[j].type));
-      if (!add_joint_torque(j, motion.joints[j], part)) part.setConstant(nan);
+      if (!add_joint_torque(j, motion.joints[j], part)) part.setConstant(no_balance);
     }
     torques.col(k) = torque;
   }
@@ -173,10 +173,11 @@ Eigen::MatrixXd Stages::bones(const Episode&, const JointTrace& joints,
 Stages::Mobility Stages::mobility(const JointTrace& joints, std::size_t j, const Bump& bump,
                                   std::size_t row) const {
   const auto [slowest, fastest] = range(joints.speed_rad_per_s[j], bump, row);
-  if (slowest > resting_rad_per_s || fastest < -resting_rad_per_s) return Mobility::moves;
+  if (slowest > resting_joint_rad_per_s || fastest < -resting_joint_rad_per_s)
+    return Mobility::moves;
   const double mean = bump.rate(joints.signals[j].angle_rad, row);
-  const bool is_still = std::max(-slowest, fastest) < resting_rad_per_s;
-  return is_still && std::abs(mean) < resting_rad_per_s ? Mobility::rests : Mobility::mixed;
+  const bool is_still = std::max(-slowest, fastest) < resting_joint_rad_per_s;
+  return is_still && std::abs(mean) < resting_joint_rad_per_s ? Mobility::rests : Mobility::mixed;
 }
 
 /// The part of a revolute joint's balance that neither friction at rest nor a stop can explain, and

@@ -30,7 +30,7 @@ struct Problem {
 };
 
 /// `list` holds the best candidate so far, then the population.
-struct State {
+struct CmaState {
   static constexpr auto element = "cma";
   xml::Place place;
   int generation = 0;
@@ -88,7 +88,7 @@ long CmaCalibration::evaluated_poses() const {
 std::string CmaCalibration::state() const {
   std::ostringstream algorithm;
   boost::archive::text_oarchive(algorithm) << impl_->algorithm;
-  State state{{}, rounds(), std::to_string(impl_->options.seed), algorithm.str(), {}};
+  CmaState state{{}, rounds(), std::to_string(impl_->options.seed), algorithm.str(), {}};
   state.list.push_back({{}, numbers(best()), {}, best_error_rad()});
   const auto& population = impl_->population;
   for (std::size_t k = 0; k < population.size(); ++k)
@@ -97,7 +97,7 @@ std::string CmaCalibration::state() const {
 }
 
 void CmaCalibration::restore(const std::string& text, const std::string& file) {
-  const auto state = xml::parse<State>(text, file);
+  const auto state = xml::parse<CmaState>(text, file);
   bool is_same_search = state.seed == std::to_string(impl_->options.seed) &&
                         std::ssize(state.list) == impl_->options.offspring + 1;
   for (const SavedPoint& saved : state.list)

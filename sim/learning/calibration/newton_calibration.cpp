@@ -15,7 +15,7 @@ constexpr int max_attempts = 12;       // chosen
 constexpr double min_decrease = 1e-3;  // chosen: relative decrease of the cost by a round
 
 /// `list` holds the current point, then the best candidate so far.
-struct State {
+struct NewtonState {
   static constexpr auto element = "newton";
   xml::Place place;
   int rounds = 0, evaluated = 0, restarts = 0;
@@ -104,21 +104,21 @@ long NewtonCalibration::evaluated_poses() const {
 }
 
 std::string NewtonCalibration::state() const {
-  State state{.rounds = rounds_,
-              .evaluated = static_cast<int>(evaluated_),
-              .restarts = restarts_,
-              .damping = damping_,
-              .cost = cost_,
-              .by_torques = by_torques_,
-              .done = done_,
-              .seed = std::to_string(options_.seed)};
+  NewtonState state{.rounds = rounds_,
+                    .evaluated = static_cast<int>(evaluated_),
+                    .restarts = restarts_,
+                    .damping = damping_,
+                    .cost = cost_,
+                    .by_torques = by_torques_,
+                    .done = done_,
+                    .seed = std::to_string(options_.seed)};
   state.list.push_back({{}, numbers(x_), {}, 0});
   state.list.push_back({{}, numbers(best()), {}, best_error_rad()});
   return xml::write(state);
 }
 
 void NewtonCalibration::restore(const std::string& text, const std::string& file) {
-  const auto state = xml::parse<State>(text, file);
+  const auto state = xml::parse<NewtonState>(text, file);
   expect_same_search(state.list.size() == 2 && state.seed == std::to_string(options_.seed) &&
                          std::ssize(state.list[0].x) == task().parameters.size() &&
                          state.list[0].x.size() == state.list[1].x.size(),

@@ -54,7 +54,7 @@ PlaneMotion::PlaneMotion(const PlaneSystem& system, const Vec2& x0, const Vec2& 
 
 namespace {
 
-constexpr int max_iterations = 100;  // chosen
+constexpr int max_bisections = 100;  // chosen
 constexpr double rounding = 1e-15;   // relative width of the interval at which the search ends
 constexpr int bisection_every = 3;   // chosen: guarantees that the interval shrinks
 
@@ -62,7 +62,7 @@ constexpr int bisection_every = 3;   // chosen: guarantees that the interval shr
 template <class Function>
 double falling_root(const Function& g, double low, double high) {
   double g_low = g(low), g_high = g(high);
-  for (int i = 0; i < max_iterations && high - low > rounding * high; ++i) {
+  for (int i = 0; i < max_bisections && high - low > rounding * high; ++i) {
     const double secant = low + (high - low) * g_low / (g_low - g_high);
     const bool use_secant =
         i % bisection_every != bisection_every - 1 && secant > low && secant < high;

@@ -10,10 +10,10 @@
 namespace sim {
 namespace {
 
-constexpr int max_iterations = 60;           // chosen
+constexpr int max_rope_iterations = 60;      // chosen
 constexpr int iterations_with_release = 20;  // chosen: later, contacts are not released
 constexpr double step_tolerance_m = 1e-9;    // chosen: step at which the iteration ends
-constexpr double converged_step_m = 1e-5;    // chosen: a larger last step counts as failed
+constexpr double accepted_step_m = 1e-5;     // chosen: a larger last step counts as failed
 constexpr double max_speed_m_per_s = 100;    // chosen: far above speeds of a real rope
 constexpr double max_newton_step_m = 0.02;   // chosen: limit of a node's Newton step
 constexpr int max_nodes = 200;               // chosen: limits the time of a step
@@ -112,7 +112,7 @@ void Rope::step(const Surroundings& around, double shaft_rad, double dt_s) {
   begin(around, shaft_rad, dt_s);
   double moved_m = 0;
   bool converged = false;
-  for (int iteration = 0; iteration < max_iterations && !converged; ++iteration) {
+  for (int iteration = 0; iteration < max_rope_iterations && !converged; ++iteration) {
     touch(around, dt_s, iteration == 0);
     stretch();
     stiffen(dt_s);
@@ -122,7 +122,7 @@ void Rope::step(const Surroundings& around, double shaft_rad, double dt_s) {
     stretch();
     converged = !update_contacts(dt_s, iteration < iterations_with_release) && converged;
   }
-  end(around, moved_m < converged_step_m, dt_s);
+  end(around, moved_m < accepted_step_m, dt_s);
 }
 
 /// Computes the free motion of the nodes and the linearised law of each segment.

@@ -13,17 +13,17 @@ using erp::BusState;
 
 namespace {
 
-constexpr std::int64_t ms = 1'000'000;
+constexpr std::int64_t ms_in_ns = 1'000'000;
 
 struct SupervisedBus {
   NarrowBus* bus = new NarrowBus;
   erp::BusKeeper keeper{"left", std::unique_ptr<erp::CanBus>(bus)};
-  std::int64_t now_ns = ms;
+  std::int64_t now_ns = ms_in_ns;
 
   /// Supervises the bus every millisecond; returns the codes of the notices.
   std::vector<std::string> pass(int milliseconds) {
     std::vector<std::string> codes;
-    for (int k = 0; k < milliseconds; ++k, now_ns += ms)
+    for (int k = 0; k < milliseconds; ++k, now_ns += ms_in_ns)
       for (const auto& notice : keeper.supervise(now_ns)) codes.push_back(notice.code);
     return codes;
   }
@@ -42,10 +42,11 @@ TEST_CASE("a bus in bus-off is restarted three times at intervals of 100 ms, the
   BusRecovery recovery;
   std::vector<std::int64_t> restart_times_ms;
   bool has_given_up = false;
-  for (std::int64_t now = 0; now < 2000 * ms; now += ms) switch (recovery.step(true, now)) {
+  for (std::int64_t now = 0; now < 2000 * ms_in_ns; now += ms_in_ns)
+    switch (recovery.step(true, now)) {
       case BusRecovery::Action::restart:
         REQUIRE_FALSE(has_given_up);
-        restart_times_ms.push_back(now / ms);
+        restart_times_ms.push_back(now / ms_in_ns);
         break;
       case BusRecovery::Action::give_up:
         REQUIRE_FALSE(has_given_up);
@@ -63,12 +64,12 @@ TEST_CASE("after ten seconds without bus-off the restarts are available again") 
   const auto restarts_again = [&](std::int64_t now) {
     return recovery.step(true, now) == BusRecovery::Action::restart;
   };
-  for (int k = 0; k < 3; ++k) CHECK(restarts_again(k * 100 * ms));
-  CHECK(recovery.step(false, 9000 * ms) == BusRecovery::Action::nothing);
+  for (int k = 0; k < 3; ++k) CHECK(restarts_again(k * 100 * ms_in_ns));
+  CHECK(recovery.step(false, 9000 * ms_in_ns) == BusRecovery::Action::nothing);
   CHECK(recovery.restarts() == 3);
-  recovery.step(false, 10'201 * ms);
+  recovery.step(false, 10'201 * ms_in_ns);
   CHECK(recovery.restarts() == 0);
-  CHECK(restarts_again(10'300 * ms));
+  CHECK(restarts_again(10'300 * ms_in_ns));
 }
 
 TEST_CASE("bus-off is reported, the queue is dropped, and nothing is sent until it ends") {
@@ -136,23 +137,23 @@ TEST_CASE("a silent ECU is reported after 10 ms, after 50 ms and when it sends a
   std::vector<std::pair<std::int64_t, erp::EcuWatch::Event>> events;
   const auto pass_until = [&](std::int64_t from_ms, std::int64_t to_ms) {
     for (std::int64_t t = from_ms; t <= to_ms; ++t)
-      watch.step(t * ms, [&](int ecu, erp::EcuWatch::Event event) {
+      watch.step(t * ms_in_ns, [&](int ecu, erp::EcuWatch::Event event) {
         CHECK(ecu == 5);
         events.emplace_back(t, event);
       });
   };
   pass_until(0, 100);
   CHECK(events.empty());  // never received
-  watch.received(5, 100 * ms);
+  watch.received(5, 100 * ms_in_ns);
   pass_until(100, 200);
   using enum erp::EcuWatch::Event;
   CHECK(events == decltype(events){{110, silent}, {150, lost}});
-  watch.received(5, 200 * ms);
+  watch.received(5, 200 * ms_in_ns);
   pass_until(200, 205);
   CHECK(events.back() == std::pair{std::int64_t{200}, back});
-  watch.received(5, 205 * ms);
+  watch.received(5, 205 * ms_in_ns);
   pass_until(206, 216);
-  watch.received(5, 216 * ms);
+  watch.received(5, 216 * ms_in_ns);
   pass_until(217, 220);
   CHECK(events.size() == 4);  // silent again; its end is not reported
 }

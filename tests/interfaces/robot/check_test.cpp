@@ -5,7 +5,7 @@
 
 namespace {
 
-erp::Robot rig() { return erp::read_robot(ERP_SOURCE_DIR "/configs/hinge_rig/robot.xml"); }
+erp::Robot checked_rig() { return erp::read_robot(ERP_SOURCE_DIR "/configs/hinge_rig/robot.xml"); }
 
 std::string errors_of(const erp::Robot& robot) {
   std::string text;
@@ -15,10 +15,10 @@ std::string errors_of(const erp::Robot& robot) {
 
 }  // namespace
 
-TEST_CASE("a valid robot gives no errors") { CHECK(errors_of(rig()).empty()); }
+TEST_CASE("a valid robot gives no errors") { CHECK(errors_of(checked_rig()).empty()); }
 
 TEST_CASE("64 actuators are accepted and 65 are rejected") {
-  erp::Robot robot = rig();
+  erp::Robot robot = checked_rig();
   const erp::Actuator flexor = robot.actuators[0];
   robot.actuators.clear();
   robot.can_buses.clear();
@@ -34,7 +34,7 @@ TEST_CASE("64 actuators are accepted and 65 are rejected") {
 }
 
 TEST_CASE("a loop of joints is reported once, without the joints that are attached to it") {
-  erp::Robot robot = rig();
+  erp::Robot robot = checked_rig();
   auto& skeleton = robot.skeletons[0];
   for (const char* name : {"a", "b", "c", "d"}) {
     skeleton.bodies.push_back({{}, name, 1.0});
@@ -50,13 +50,13 @@ TEST_CASE("a loop of joints is reported once, without the joints that are attach
 }
 
 TEST_CASE("a joint whose parent is its own child is a loop") {
-  erp::Robot robot = rig();
+  erp::Robot robot = checked_rig();
   robot.skeletons[0].joints[0].parent = "forearm";
   CHECK_THAT(errors_of(robot), Catch::Contains("loop: forearm < forearm"));
 }
 
 TEST_CASE("spherical and fixed joints need no axis and no limits") {
-  erp::Robot robot = rig();
+  erp::Robot robot = checked_rig();
   robot.joint_sensors.clear();
   auto& joint = robot.skeletons[0].joints[0];
   joint.axis = {0, 0, 0};
@@ -66,7 +66,7 @@ TEST_CASE("spherical and fixed joints need no axis and no limits") {
 }
 
 TEST_CASE("two sensors on one input or on one joint are rejected") {
-  erp::Robot robot = rig();
+  erp::Robot robot = checked_rig();
   robot.joint_sensors.push_back(robot.joint_sensors[0]);
   CHECK_THAT(errors_of(robot), Catch::Contains("input=\"0\" already reads joint \"elbow\"") &&
                                    Catch::Contains("a second sensor on joint \"elbow\""));
@@ -74,7 +74,7 @@ TEST_CASE("two sensors on one input or on one joint are rejected") {
 
 TEST_CASE(
     "a point inside its neighbouring pulley is rejected; a point on its surface is accepted") {
-  erp::Robot robot = rig();
+  erp::Robot robot = checked_rig();
   auto& path = robot.actuators[0].tendon.path;
   std::get<erp::Attach>(path[1]).at_m = {-0.025, 0, 0};
   std::get<erp::Attach>(path[0]).at_m = {0, 0, 0.001};
@@ -84,7 +84,7 @@ TEST_CASE(
 }
 
 TEST_CASE("relax_tension_N and pretension_N above max_tension_N are rejected") {
-  erp::Robot robot = rig();
+  erp::Robot robot = checked_rig();
   robot.actuators[0].relax_tension_N = 151;
   robot.actuators[1].tendon.pretension_N = 151;
   CHECK_THAT(errors_of(robot),

@@ -15,21 +15,21 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Folder {
+struct BlindFolder {
   fs::path path = fs::temp_directory_path() / ("erp_blind_" + std::to_string(::getpid()));
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
+  BlindFolder() { fs::create_directories(path); }
+  ~BlindFolder() { fs::remove_all(path); }
 };
 
-const std::string robot_file = rigs::config("hinge_rig/robot.xml");
+const std::string blind_robot_file = rigs::config("hinge_rig/robot.xml");
 
 }  // namespace
 
 TEST_CASE("blind cases are made, diagnosed and scored; a changed truth file is rejected") {
-  const Folder folder;
+  const BlindFolder folder;
   const std::string cases = folder.path / "cases", truth = folder.path / "sealed/truth.json";
   std::ostringstream out, remarks;
-  launch::gap::BlindMakeOptions make{.robot = robot_file, .out = cases, .truth = truth};
+  launch::gap::BlindMakeOptions make{.robot = blind_robot_file, .out = cases, .truth = truth};
   make.cases = 2, make.recordings = 3, make.seconds = 5, make.seed = 14;
   REQUIRE(launch::gap::blind_make(make, out, remarks) == 0);
   REQUIRE(launch::gap::blind_run({cases, 2}, out, remarks) == 0);
@@ -61,10 +61,11 @@ TEST_CASE("blind cases are made, diagnosed and scored; a changed truth file is r
 TEST_CASE(
     "blind make rejects a robot without actuators or with effects, an existing truth file, and a "
     "truth file inside the folder of the cases") {
-  const Folder folder;
+  const BlindFolder folder;
   std::ostringstream out, remarks;
-  launch::gap::BlindMakeOptions make{
-      .robot = robot_file, .out = folder.path / "cases", .truth = folder.path / "cases/truth.json"};
+  launch::gap::BlindMakeOptions make{.robot = blind_robot_file,
+                                     .out = folder.path / "cases",
+                                     .truth = folder.path / "cases/truth.json"};
   const auto check_rejected = [&](const char* reason) {
     CHECK_THROWS_WITH(launch::gap::blind_make(make, out, remarks), Catch::Contains(reason));
     CHECK_FALSE(fs::exists(folder.path / "cases"));
@@ -76,7 +77,7 @@ TEST_CASE(
   make.truth = folder.path / "another.json";
   make.robot = rigs::config("drive/robot.xml");
   check_rejected("has no actuator");
-  erp::Robot with_effect = erp::read_robot(robot_file);
+  erp::Robot with_effect = erp::read_robot(blind_robot_file);
   with_effect.effects = {{{}, "gearbox_coulomb", "extensor", {{{}, "extra_Nm", "0.03"}}}};
   make.robot = folder.path / "with_effect.xml";
   std::ofstream(make.robot) << erp::write_robot(with_effect);
@@ -84,8 +85,8 @@ TEST_CASE(
 }
 
 TEST_CASE("a robot whose initial pose is beyond its stops is recorded") {
-  const Folder folder;
-  std::string robot = erp::write_robot(erp::read_robot(robot_file));
+  const BlindFolder folder;
+  std::string robot = erp::write_robot(erp::read_robot(blind_robot_file));
   const std::string stops = R"(min_rad="-1.2" max_rad="1.6")";
   REQUIRE(robot.find(stops) != robot.npos);
   robot.replace(robot.find(stops), stops.size(), R"(min_rad="-0.01" max_rad="0.01")");
@@ -101,7 +102,7 @@ TEST_CASE("a robot whose initial pose is beyond its stops is recorded") {
 }
 
 /// Writes the truth file of a folder of diagnoses, and returns the printed score.
-std::string score_of(const Folder& folder, const nlohmann::json& truths) {
+std::string score_of(const BlindFolder& folder, const nlohmann::json& truths) {
   const std::string truth = folder.path / "truth.json";
   std::ofstream(truth) << truths.dump();
   std::ofstream(folder.path / "cases.json")
@@ -113,7 +114,7 @@ std::string score_of(const Folder& folder, const nlohmann::json& truths) {
 
 TEST_CASE(
     "score of pairs: share of cases with both effects found, and F1 of all reported effects") {
-  const Folder folder;
+  const BlindFolder folder;
   const auto effect = [](const char* type) {
     return nlohmann::json{{"type", type}, {"on", "flexor"}, {"supported", true}};
   };
@@ -149,7 +150,7 @@ TEST_CASE(
 
 TEST_CASE(
     "score of many deviating constants: share of visible errors reported, share of false reports") {
-  const Folder folder;
+  const BlindFolder folder;
   const auto number = [](const char* name, double value) {
     return nlohmann::json{{"on", "flexor"}, {"name", name}, {"value", value}};
   };
@@ -177,7 +178,7 @@ TEST_CASE(
       {"constants",
        {constant("reported", 1.05, 0.01, true), constant("missed", 1.01, 0.01, false),
         constant("too_small_to_see", 1.01, 0.02, false), constant("exact", 1.04, 0.01, true)}}};
-  fs::copy(robot_file, folder.path / "robot.xml");
+  fs::copy(blind_robot_file, folder.path / "robot.xml");
   const std::string score = score_of(folder, truths);
   INFO(score);
   CHECK_THAT(score, Catch::Contains("visible errors reported        50.0 %  (1 of 2)") &&
@@ -187,11 +188,11 @@ TEST_CASE(
 }
 
 TEST_CASE("a robot whose constants all deviate by 3 % is drawn, diagnosed and scored") {
-  const Folder folder;
+  const BlindFolder folder;
   const std::string cases = folder.path / "cases", truth = folder.path / "truth.json";
   std::ostringstream out, remarks;
   launch::gap::BlindMakeOptions make{
-      .robot = robot_file, .out = cases, .truth = truth, .kind = "null"};
+      .robot = blind_robot_file, .out = cases, .truth = truth, .kind = "null"};
   make.cases = 1, make.recordings = 3, make.seconds = 8, make.seed = 3, make.tolerance = 0.03;
   make.kind = "many";
   CHECK_THROWS_WITH(launch::gap::blind_make(make, out, remarks),

@@ -17,10 +17,10 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Writes a recording of the rig without a gap, and a model with a tolerance.
-struct Folder {
+struct CalibrationFolder {
   fs::path path = fs::temp_directory_path() / ("erp_calibrate_" + std::to_string(::getpid()));
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
+  CalibrationFolder() { fs::create_directories(path); }
+  ~CalibrationFolder() { fs::remove_all(path); }
 
   std::string recorded() const {
     std::ofstream out(path / "one.csv");
@@ -73,7 +73,7 @@ std::string calibrated(const std::string& robot, const std::string& recording) {
 
 TEST_CASE(
     "a constant with a tolerance of 0 is not estimated; a written robot keeps its tolerances") {
-  const Folder folder;
+  const CalibrationFolder folder;
   const auto recording = folder.recorded();
   const auto exact = calibrated(folder.model_with(tolerance("mass", 0)), recording);
   CHECK(exact.find(" mass ") == std::string::npos);
@@ -86,7 +86,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a calibrated robot.xml has one motor type per actuator and can be calibrated again") {
-  const Folder folder;
+  const CalibrationFolder folder;
   const auto recording = folder.recorded();
   const std::string built = folder.path / "built.xml";
   std::ostringstream out, remarks;
@@ -104,7 +104,7 @@ TEST_CASE("a calibrated robot.xml has one motor type per actuator and can be cal
 TEST_CASE(
     "an output folder that cannot be created is rejected before the recordings are read; a missing "
     "one is created") {
-  const Folder folder;
+  const CalibrationFolder folder;
   std::ofstream(folder.path / "file") << "no folder";
   std::ostringstream out, remarks;
   const auto run = [&](const fs::path& output, const std::string& recording) {
@@ -119,7 +119,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a tolerance of an unknown constant is rejected before the recordings are read") {
-  const Folder folder;
+  const CalibrationFolder folder;
   CHECK_THROWS_WITH(
       calibrated(folder.model_with(tolerance("weight", 0.1)), folder.path / "no_such.csv"),
       Catch::Contains("weight") && Catch::Contains("names no number of forearm"));
@@ -127,7 +127,7 @@ TEST_CASE("a tolerance of an unknown constant is rejected before the recordings 
 
 TEST_CASE(
     "calibrate and diagnose print the same output under mpirun with one and with two processes") {
-  const Folder folder;
+  const CalibrationFolder folder;
   erp::Robot built = erp::read_robot(rigs::config("hinge_rig/robot.xml"));
   built.effects = {sim::effects::written({"flexor", sim::effects::GearboxViscous{0.02}})};
   std::string files;

@@ -10,15 +10,15 @@ using sim::effects::Placed;
 
 namespace {
 
-Placed neutral(const char* type) { return {"flexor", *sim::effects::neutral(type)}; }
+Placed neutral_effect(const char* type) { return {"flexor", *sim::effects::neutral_effect(type)}; }
 
-/// The numbers of periods with the highest scores, for an effect that is neutral in the estimate.
+/// The numbers of periods with the highest scores, for an effect that is neutral_effect in the estimate.
 std::vector<double> best_periods(const sim::blind::Case& hidden, const char* type) {
   const erp::Robot robot = hinge_rig();
   const auto recordings = blind_recording::episodes(hidden, 8, 2);
   const Estimator train(robot, recordings);
   const Uncertain exact{robot, {}};
-  return periods_of(neutral(type), robot, train.residuals(), train.run(exact, {}));
+  return periods_of(neutral_effect(type), robot, train.residuals(), train.run(exact, {}));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ using namespace sim::residuals;
 
 namespace {
 
-constexpr double period_s = 0.002, pull_N = 10;
+constexpr double leap_period_s = 0.002, pull_N = 10;
 constexpr int rows = 2000;
 
 /// Random steps, like a smooth command after a bus that loses frames.
@@ -27,7 +27,7 @@ Signal random_steps(double low, double high, int count) {
   return x;
 }
 
-double rms(const std::vector<double>& x) {
+double rms_of_signal(const std::vector<double>& x) {
   double square = 0;
   for (const double value : x) square += value * value;
   return std::sqrt(square / double(x.size()));
@@ -37,7 +37,8 @@ double rms(const std::vector<double>& x) {
 /// around the rows, otherwise values at the rows.
 ActuatorSignals driven(const erp::Robot& robot, const erp::Actuator& actuator, bool averaged) {
   constexpr int substeps = 40;
-  const sim::Motor motor(robot.motor_of(actuator), actuator.spindle.radius_m, period_s / substeps);
+  const sim::Motor motor(robot.motor_of(actuator), actuator.spindle.radius_m,
+                         leap_period_s / substeps);
   ActuatorSignals s;
   s.voltage_V = random_steps(5, 11, rows), s.tension_N = Signal(rows, pull_N);
   s.current_around = averaged;
@@ -48,7 +49,7 @@ ActuatorSignals driven(const erp::Robot& robot, const erp::Actuator& actuator, b
     mean_A.push_back(0);
     for (int p = 0; p < substeps; ++p) {
       const double before_A = state.current_A;
-      state = sim::step(motor, state, volts, pull_N, period_s / substeps);
+      state = sim::step(motor, state, volts, pull_N, leap_period_s / substeps);
       mean_A.back() += (before_A + state.current_A) / 2 / substeps;
     }
     s.current_A.push_back(state.current_A), s.shaft_rad.push_back(state.shaft_rad);
@@ -75,11 +76,11 @@ std::vector<Residual> stages_of(const erp::Robot& robot, const erp::Actuator& ac
                                 const ActuatorSignals& s) {
   const erp::MotorType& type = robot.motor_of(actuator);
   const PathTrace no_path;
-  const ChainTrace t = trace({type, actuator, {}, 0}, s, no_path, period_s, 0.006);
+  const ChainTrace t = trace({type, actuator, {}, 0}, s, no_path, leap_period_s, 0.006);
   std::vector<std::size_t> middles;
   for (std::size_t k = 100; k + 100 < rows; k += 10) middles.push_back(k);
-  const Episode episode{"random_steps", period_s, rows, {}, {}};
-  return chain_residuals(t, actuator, type, episode, Bump(0.03, period_s), middles);
+  const Episode episode{"random_steps", leap_period_s, rows, {}, {}};
+  return chain_residuals(t, actuator, type, episode, Bump(0.03, leap_period_s), middles);
 }
 
 }  // namespace
@@ -89,11 +90,11 @@ TEST_CASE(
   const Signal acceleration = random_steps(-300, 300, 101);
   Signal speed{2}, x{1}, averaged{0};
   for (std::size_t k = 0; k + 1 < acceleration.size(); ++k) {
-    x.push_back(x[k] + period_s * (speed[k] + period_s / 2 * acceleration[k]));
-    speed.push_back(speed[k] + period_s * acceleration[k]);
+    x.push_back(x[k] + leap_period_s * (speed[k] + leap_period_s / 2 * acceleration[k]));
+    speed.push_back(speed[k] + leap_period_s * acceleration[k]);
     averaged.push_back((acceleration[k] + acceleration[k + 1]) / 2);
   }
-  const Bump bump(0.03, period_s);
+  const Bump bump(0.03, leap_period_s);
   for (const std::size_t k : {20u, 33u, 50u, 71u}) {
     INFO(k);
     CHECK(bump.acceleration(x, k) == Approx(bump.mean(averaged, k)).epsilon(1e-9));
@@ -113,7 +114,7 @@ TEST_CASE("voltage steps leave residuals of motor and gearbox below the sensor n
       for (std::size_t k = 0; k < residuals[stage].value.size(); ++k)
         noise.push_back(with_noise[stage].value[k] - residuals[stage].value[k]);
       INFO((stage == 0 ? "motor" : "gearbox") << (averaged ? ", currents averaged" : ""));
-      CHECK(rms(residuals[stage].value) < 0.75 * rms(noise));
+      CHECK(rms_of_signal(residuals[stage].value) < 0.75 * rms_of_signal(noise));
     }
   }
 }

@@ -12,7 +12,7 @@ using sim::BodyPose, sim::BodyTwist, sim::Rope, sim::Vec3;
 
 namespace {
 
-const std::vector<std::string> bodies{"base", "other"};
+const std::vector<std::string> rope_bodies{"base", "other"};
 constexpr double dt_s = 0.001;
 const Vec3 down(0, 0, -9.81);
 
@@ -22,7 +22,7 @@ erp::Rope rope_of(int nodes, double friction = 0) {
   return rope;
 }
 
-/// A rope between two points with bodies at rest, initially straight or over its pulley.
+/// A rope between two points with rope_bodies at rest, initially straight or over its pulley.
 struct HangingRope {
   sim::TendonLaw law;
   Rope rope;
@@ -44,7 +44,7 @@ struct HangingRope {
     return t;
   }
   HangingRope(const erp::Rope& type, const erp::Tendon& t, std::vector<sim::Solid> solids)
-      : HangingRope(type, t, sim::Routing(t, bodies), std::move(solids)) {}
+      : HangingRope(type, t, sim::Routing(t, rope_bodies), std::move(solids)) {}
   HangingRope(const erp::Rope& type, const erp::Tendon& t, const sim::Routing& routing,
               std::vector<sim::Solid> solids)
       : law(sim::TendonLaw::at_rest(t, {{}, 0.0045}, routing.solve(poses_0()).length_m)),
@@ -55,7 +55,7 @@ struct HangingRope {
   static std::vector<BodyPose> poses_0() { return std::vector<BodyPose>(2); }
 };
 
-erp::Attach attach(const std::string& body, xml::Vec3 at) { return {{}, body, at}; }
+erp::Attach rope_attachment(const std::string& body, xml::Vec3 at) { return {{}, body, at}; }
 
 Vec3 sum_of_forces(const Rope& rope) {
   Vec3 sum = Vec3::Zero();
@@ -66,7 +66,8 @@ Vec3 sum_of_forces(const Rope& rope) {
 }  // namespace
 
 TEST_CASE("the tension of a straight rope follows the tendon law, and increases with winding") {
-  HangingRope h(rope_of(20), {attach("base", {0, 0, 0}), attach("other", {0.3, 0, 0})}, 30);
+  HangingRope h(rope_of(20),
+                {rope_attachment("base", {0, 0, 0}), rope_attachment("other", {0.3, 0, 0})}, 30);
   h.settle(0.5);
   CHECK(h.rope.tension_N() == Approx(30).epsilon(1e-9));
   CHECK(h.rope.length_m() == Approx(0.3).epsilon(1e-9));
@@ -77,7 +78,8 @@ TEST_CASE("the tension of a straight rope follows the tendon law, and increases 
 }
 
 TEST_CASE("a slack rope hangs in a catenary and carries only its own weight") {
-  HangingRope h(rope_of(40), {attach("base", {0, 0, 0}), attach("other", {0.3, 0, 0})}, 0);
+  HangingRope h(rope_of(40),
+                {rope_attachment("base", {0, 0, 0}), rope_attachment("other", {0.3, 0, 0})}, 0);
   h.settle(10, down, -10);  // 45 mm of line unwound
   double lowest = 0;
   for (const Vec3& node : h.rope.nodes_m()) lowest = std::min(lowest, node.z());
@@ -94,14 +96,14 @@ TEST_CASE("a slack rope hangs in a catenary and carries only its own weight") {
 TEST_CASE("a rope over a sphere has the length of the wrapped path and pushes on the sphere") {
   erp::Pulley pulley{{}, "base", {0.15, 0, -0.01}, 0.05};
   pulley.side = {0, 0, 1};
-  const std::vector<std::variant<erp::Attach, erp::Pulley>> path{attach("base", {0, 0, 0}), pulley,
-                                                                 attach("other", {0.3, 0, 0})};
+  const std::vector<std::variant<erp::Attach, erp::Pulley>> path{
+      rope_attachment("base", {0, 0, 0}), pulley, rope_attachment("other", {0.3, 0, 0})};
   const int nodes = GENERATE(30, 60);
   HangingRope h(rope_of(nodes), path, 40);
   h.settle(2);
   erp::Tendon t = rigs::hinge_tendon();
   t.path = path;
-  const double wrapped = sim::Routing(t, bodies).solve(h.poses).length_m;
+  const double wrapped = sim::Routing(t, rope_bodies).solve(h.poses).length_m;
   const double step = 0.3 / nodes;  // error of a polygon on a circle: (step/r)² / 24 of the arc
   CHECK(h.rope.length_m() == Approx(wrapped).margin(0.08 * step * step / (0.05 * 0.05) / 6));
   CHECK(h.rope.tension_N() == Approx(40).epsilon(0.02));
@@ -116,7 +118,9 @@ TEST_CASE("a rising capsule or box lifts the rope, which stays outside") {
   const sim::Solid capsule{1, {0.15, -0.2, -0.04}, {0.15, 0.2, -0.04}, 0.05};
   const sim::Solid box{1, {0.15, 0, -0.04}, {0.15, 0, -0.04}, 0, {0.02, 0.1, 0.05}};
   const sim::Solid solid = GENERATE_COPY(capsule, box);
-  HangingRope h(rope_of(40), {attach("base", {0, 0, 0}), attach("base", {0.3, 0, 0})}, 20, {solid});
+  HangingRope h(rope_of(40),
+                {rope_attachment("base", {0, 0, 0}), rope_attachment("base", {0.3, 0, 0})}, 20,
+                {solid});
   h.twists[1].linear_m_per_s = Vec3(0, 0, 0.05);
   for (double z = -0.02; z < 0; z += 0.05 * dt_s)
     h.poses[1].position_m = Vec3(0, 0, z), h.settle(dt_s);
@@ -136,7 +140,8 @@ TEST_CASE("friction reduces the tension by e^(−µ φ) around a shaft") {
   const double friction = 0.3, r = 0.05;
   const sim::Solid shaft{0, {0.15, -0.2, -0.03}, {0.15, 0.2, -0.03}, r};
   HangingRope h(rope_of(80, friction),
-                {attach("base", {0, 0, -0.15}), attach("other", {0.3, 0, -0.15})}, 5, {shaft});
+                {rope_attachment("base", {0, 0, -0.15}), rope_attachment("other", {0.3, 0, -0.15})},
+                5, {shaft});
   h.settle(1);
   for (int k = 0; k < 400; ++k) h.settle(dt_s, Vec3::Zero(), 0.01 * k);  // pulled over the shaft
   const auto& tension = h.rope.state().tension_N;
@@ -148,7 +153,8 @@ TEST_CASE("friction reduces the tension by e^(−µ φ) around a shaft") {
 }
 
 TEST_CASE("the watchdog counts a step in which the rope diverges and resets the rope") {
-  HangingRope h(rope_of(20), {attach("base", {0, 0, 0}), attach("other", {0.3, 0, 0})}, 30);
+  HangingRope h(rope_of(20),
+                {rope_attachment("base", {0, 0, 0}), rope_attachment("other", {0.3, 0, 0})}, 30);
   h.poses[1].position_m = Vec3(0, 0, 500);  // in one millisecond
   h.settle(dt_s);
   CHECK(h.rope.failed_steps() == 1);
