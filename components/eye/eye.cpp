@@ -29,7 +29,7 @@ void Eye::publish_spots(const images::ImageSource::Frame& frame, std::int64_t st
       if (message.points._length == erp::capacity_of<erp::ImagePointSample>) break;
       erp::ImagePointSample point{};
       erp::assign(point.camera, view_.cameras[c].name);
-      point.u_px = spot.at.x(), point.v_px = spot.at.y(), point.area_px = spot.area_px;
+      point.u_px = spot.centre.x(), point.v_px = spot.centre.y(), point.area_px = spot.area_px;
       erp::append(message.points, point);
     }
   out_.publish(message);

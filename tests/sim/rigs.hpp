@@ -36,4 +36,6 @@ inline std::string config(const std::string& file) {
   return std::string(ERP_SOURCE_DIR) + "/configs/" + file;
 }
 
+inline erp::Robot hinge_rig() { return erp::read_robot(config("hinge_rig/robot.xml")); }
+
 }  // namespace rigs

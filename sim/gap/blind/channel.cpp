@@ -18,7 +18,7 @@ namespace {
 // Travel and damping of the bristles; chosen: small against the motion, resolved by the
 // integrator's step.
 constexpr double shaft_travel_rad = 3e-4, shaft_damping_s = 2e-3, line_travel_m = 4e-5;
-constexpr double max_deflection = 1.2;        // of a bristle with its damping; chosen
+constexpr double max_shaft_deflection = 1.2;  // of a bristle with its damping; chosen
 constexpr double line_damping_N_s_per_m = 5;  // at least; chosen: stable integration
 // A steel spindle of 4.5 mm with the last gear wheel. The teeth are stiff, not rigid.
 constexpr double spindle_kg_m2 = 1e-6, tooth_Nm_per_rad = 120, tooth_damping_s = 1.7e-4;
@@ -124,7 +124,7 @@ void Plant::turn_motor(const Channel& k, const double* x, const Line& line, doub
 
   dx[c::bristle] = bristle_rate(s, omega, shaft_travel_rad);
   const double deflection =
-      std::clamp(s + shaft_damping_s * dx[c::bristle], -max_deflection, max_deflection);
+      std::clamp(s + shaft_damping_s * dx[c::bristle], -max_shaft_deflection, max_shaft_deflection);
   double load = line.wound_slope_m * line.motor_side_N;
   if (k.two_masses) {
     const double low = q.backlash_rad > 0 ? -q.backlash_rad : 0.0;

@@ -9,7 +9,7 @@
 
 namespace {
 
-erp::Robot hinge_rig() { return erp::read_robot(rigs::config("hinge_rig/robot.xml")); }
+using rigs::hinge_rig;
 
 /// A row of a recording as a sensor frame.
 erp::SensorFrame frame_of(const recording::Table& table, const erp::Robot& robot, std::size_t row) {

@@ -10,7 +10,7 @@
 
 namespace {
 
-erp::Robot rig_with_ecus() { return erp::read_robot(rigs::config("rig_with_ecus/robot.xml")); }
+using rigs::hinge_rig;
 
 /// The flexor at `force_N`, the extensor at 2 N, for some ticks; set-points in mN.
 void pull(Limb& limb, double force_N, int ticks) {
@@ -23,8 +23,8 @@ void pull(Limb& limb, double force_N, int ticks) {
 }  // namespace
 
 TEST_CASE("without gains the ECUs stay in boot, apply no voltage and report their readings") {
-  sim::World world(rig_with_ecus());
-  sim::VirtualEcus ecus(rig_with_ecus());
+  sim::World world(hinge_rig());
+  sim::VirtualEcus ecus(hinge_rig());
   ecus.measure(world);
   erp::EcuFrame frame;
   ecus.fill(frame);
@@ -39,7 +39,7 @@ TEST_CASE("without gains the ECUs stay in boot, apply no voltage and report thei
 }
 
 TEST_CASE("gains designed for the second motor set meet the paper's figures") {
-  erp::Robot robot = rig_with_ecus();
+  erp::Robot robot = hinge_rig();
   const erp::Robot motors = erp::read_robot(rigs::config("parts/motors.xml"));
   robot.motor_types = motors.motor_types;
   for (auto& actuator : robot.actuators) actuator.motor = "geared_12V";
@@ -58,7 +58,7 @@ TEST_CASE("gains designed for the second motor set meet the paper's figures") {
 TEST_CASE(
     "a force step from 2 to 40 N on the rig's flexor with a locked elbow meets the paper's "
     "figures") {
-  Limb limb(rig_with_ecus(), {.lock = {"elbow"}});
+  Limb limb(hinge_rig(), {.lock = {"elbow"}});
   pull(limb, 2, 500);
   double at_10 = -1, at_90 = -1, peak = 0, squares = 0;
   for (int k = 0; k < 500; ++k) {
@@ -79,7 +79,7 @@ TEST_CASE(
 }
 
 TEST_CASE("without commands the channels trip and the voltage is zero") {
-  Limb limb(rig_with_ecus());
+  Limb limb(hinge_rig());
   pull(limb, 10, 50);
   for (int k = 0; k < 30; ++k) limb.ecus.tick(limb.world);
   erp::EcuFrame frame;
@@ -118,7 +118,7 @@ TEST_CASE("sensors of ball joints, potentiometers and latency reach the frame") 
 }
 
 TEST_CASE("the joint sensor's counts are the joint's angle") {
-  erp::Robot rig = rig_with_ecus();
+  erp::Robot rig = hinge_rig();
   rig.joint_sensors[0].noise_rad = 0;
   Limb limb(rig);
   pull(limb, 30, 200);
@@ -131,7 +131,7 @@ TEST_CASE("the joint sensor's counts are the joint's angle") {
 
 TEST_CASE("two runs with the same seed give the same frames, and another seed gives other frames") {
   const auto run = [](std::uint64_t seed) {
-    Limb limb(rig_with_ecus(), {}, {.seed = seed});
+    Limb limb(hinge_rig(), {}, {.seed = seed});
     std::vector<erp::EcuChannelSample> trace;
     erp::EcuFrame frame;
     for (int k = 0; k < 300; ++k) {
@@ -153,7 +153,7 @@ TEST_CASE("two runs with the same seed give the same frames, and another seed gi
 
 TEST_CASE("with a physics step of 0.2 ms instead of 1 ms the angle changes by less than 2 mrad") {
   const auto angle = [](int substeps) {
-    Limb limb(rig_with_ecus(), {.usual_step_s = 0.002 / substeps}, {.substeps = substeps});
+    Limb limb(hinge_rig(), {.usual_step_s = 0.002 / substeps}, {.substeps = substeps});
     pull(limb, 20, 500);
     return limb.world.joints()[0].position[0];
   };
@@ -161,8 +161,8 @@ TEST_CASE("with a physics step of 0.2 ms instead of 1 ms the angle changes by le
 }
 
 TEST_CASE("a joint sensor on an unknown joint, and less than one substep, are rejected") {
-  erp::Robot rig = rig_with_ecus();
+  erp::Robot rig = hinge_rig();
   rig.joint_sensors[0].joint = "knee";
   CHECK_THROWS_AS(sim::VirtualEcus(rig), std::invalid_argument);
-  CHECK_THROWS_AS(sim::VirtualEcus(rig_with_ecus(), {.substeps = 0}), std::invalid_argument);
+  CHECK_THROWS_AS(sim::VirtualEcus(hinge_rig(), {.substeps = 0}), std::invalid_argument);
 }

@@ -11,7 +11,7 @@ using sim::World;
 
 namespace {
 
-erp::Robot hinge_rig() { return erp::read_robot(rigs::config("hinge_rig/robot.xml")); }
+using rigs::hinge_rig;
 
 double length_at(World& world, int actuator, double angle) {
   sim::JointReading reading = world.joints()[0];

@@ -13,7 +13,7 @@ using namespace sim::blind;
 
 namespace {
 
-erp::Robot hinge_rig() { return erp::read_robot(rigs::config("hinge_rig/robot.xml")); }
+using rigs::hinge_rig;
 HiddenEffects no_effects(const erp::Robot& robot) {
   return draw_case(robot, Kind::null, 1).hidden_effects;
 }

@@ -14,7 +14,7 @@ using sim::residuals::Signal;
 
 namespace {
 
-erp::Robot hinge_rig() { return erp::read_robot(rigs::config("hinge_rig/robot.xml")); }
+using rigs::hinge_rig;
 
 /// The messages about a recording of the rig after a change of its signals.
 template <class Change>

@@ -6,7 +6,7 @@
 /// Recordings of hinge_rig or another robot, simulated by the blind plant with given hidden effects.
 namespace blind_recording {
 
-inline erp::Robot hinge_rig() { return erp::read_robot(rigs::config("hinge_rig/robot.xml")); }
+using rigs::hinge_rig;
 
 inline sim::blind::Case nothing_hidden() {
   return sim::blind::draw_case(hinge_rig(), sim::blind::Kind::null, 1);

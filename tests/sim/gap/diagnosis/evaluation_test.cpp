@@ -13,7 +13,7 @@ using namespace sim::residuals;
 
 namespace {
 
-erp::Robot hinge_rig() { return erp::read_robot(rigs::config("hinge_rig/robot.xml")); }
+using rigs::hinge_rig;
 
 effects::Placed placed(const std::string& type) {
   const auto effect = magnitudes::visible(type);

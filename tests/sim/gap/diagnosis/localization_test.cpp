@@ -13,7 +13,7 @@ using namespace sim::residuals;
 
 namespace {
 
-erp::Robot hinge_rig() { return erp::read_robot(rigs::config("hinge_rig/robot.xml")); }
+using rigs::hinge_rig;
 
 /// Two recordings of a rig with these effects.
 std::vector<Episode> recordings(const std::vector<effects::Placed>& placed) {

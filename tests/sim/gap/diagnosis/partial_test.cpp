@@ -11,7 +11,7 @@ using namespace sim::residuals;
 
 namespace {
 
-erp::Robot hinge_rig() { return erp::read_robot(rigs::config("hinge_rig/robot.xml")); }
+using rigs::hinge_rig;
 
 Episode recorded(const std::vector<effects::Placed>& placed, std::uint64_t seed = 7) {
   erp::Robot real = hinge_rig();

@@ -10,7 +10,7 @@ using sim::effects::Placed;
 
 namespace {
 
-Placed neutral_effect(const char* type) { return {"flexor", *sim::effects::neutral_effect(type)}; }
+Placed neutral_effect(const char* type) { return {"flexor", *sim::effects::neutral(type)}; }
 
 /// The numbers of periods with the highest scores, for an effect that is neutral_effect in the estimate.
 std::vector<double> best_periods(const sim::blind::Case& hidden, const char* type) {

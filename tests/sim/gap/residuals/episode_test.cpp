@@ -20,9 +20,7 @@ recording::Table sine(int rows) {
   return table;
 }
 
-erp::Robot rig_of_recording() {
-  return erp::read_robot(rigs::config("rig_of_recording/robot.xml"));
-}
+using rigs::hinge_rig;
 
 }  // namespace
 
@@ -35,7 +33,7 @@ TEST_CASE(
     column.values.erase(column.values.begin() + 500, column.values.begin() + 520);
   }
   std::vector<std::string> remarks;
-  const Episode episode = lay_out(table, rig_of_recording(), "run.csv", remarks);
+  const Episode episode = lay_out(table, hinge_rig(), "run.csv", remarks);
   CHECK(episode.rows == 1000);
   CHECK(episode.period_s == Approx(0.002));
   const Signal& shaft = episode.actuators[0].shaft_rad;
@@ -56,7 +54,7 @@ TEST_CASE("a time in ms, µs or ns is rejected with the divisor to use") {
     recording::Table table = sine(100);
     for (double& time : table.columns[0].values) time *= in_a_second;
     std::vector<std::string> remarks;
-    CHECK_THROWS_WITH(lay_out(table, rig_of_recording(), "run.csv", remarks),
+    CHECK_THROWS_WITH(lay_out(table, hinge_rig(), "run.csv", remarks),
                       Catch::StartsWith("run.csv: time_s: rows ") && Catch::EndsWith(unit));
   }
 }
@@ -96,10 +94,10 @@ TEST_CASE(
     if (k % 10 == 5) table.columns[0].values[k] += 0.0015;  // 0.5 ms before the next row
   }
   std::vector<std::string> remarks;
-  CHECK_THROWS_WITH(lay_out(table, rig_of_recording(), "x", remarks),
+  CHECK_THROWS_WITH(lay_out(table, hinge_rig(), "x", remarks),
                     Catch::Contains("of arrival"));
   table.columns.push_back({"sequence", ticks});
-  const Episode episode = lay_out(table, rig_of_recording(), "x", remarks);
+  const Episode episode = lay_out(table, hinge_rig(), "x", remarks);
   CHECK(episode.rows == 1000);
   CHECK(episode.period_s == Approx(0.002).epsilon(1e-9));
   CHECK(episode.actuators[0].shaft_rad == table.columns[1].values);
@@ -111,7 +109,7 @@ TEST_CASE("a jitter of a third of a period neither drops nor repeats a row") {
   for (std::size_t k = 0; k < 4000; ++k)
     table.columns[0].values[k] += 7e-4 * std::sin(double(k * k));  // a third of a period
   std::vector<std::string> remarks;
-  const Episode episode = lay_out(table, rig_of_recording(), "run.csv", remarks);
+  const Episode episode = lay_out(table, hinge_rig(), "run.csv", remarks);
   CHECK(remarks.empty());
   CHECK(episode.rows == 4000);
   CHECK(episode.actuators[0].shaft_rad == table.columns[1].values);
@@ -121,7 +119,7 @@ TEST_CASE("an outlier of a shaft angle is dropped, a jump of a voltage is not") 
   recording::Table table = sine(1000);
   table.columns[1].values[400] += 3;
   std::vector<std::string> remarks;
-  const Episode episode = lay_out(table, rig_of_recording(), "run.csv", remarks);
+  const Episode episode = lay_out(table, hinge_rig(), "run.csv", remarks);
   CHECK(episode.actuators[0].shaft_rad[400] == Approx(std::sin(8.0)).margin(1e-3));
   CHECK(episode.actuators[0].voltage_V == table.columns[2].values);
   REQUIRE(remarks.size() == 1);
@@ -132,7 +130,7 @@ TEST_CASE("a recording with mostly repeated times is rejected with the reason") 
   recording::Table table = sine(1000);
   for (double& t : table.columns[0].values) t = std::round(100 * t) / 100;
   std::vector<std::string> remarks;
-  CHECK_THROWS_WITH(lay_out(table, rig_of_recording(), "run.csv", remarks),
+  CHECK_THROWS_WITH(lay_out(table, hinge_rig(), "run.csv", remarks),
                     Catch::Contains("run.csv: time_s: most rows have the time of the row before"));
 }
 
@@ -140,11 +138,11 @@ TEST_CASE("columns of another robot and a gap of minutes are rejected with the r
   std::vector<std::string> remarks;
   recording::Table other{
       {{"time_s", sine(100).columns[0].values}, {"knee.current_A", Signal(100)}}};
-  CHECK_THROWS_WITH(lay_out(other, rig_of_recording(), "x", remarks),
-                    Catch::Contains("no column of robot \"rig_of_recording\""));
+  CHECK_THROWS_WITH(lay_out(other, hinge_rig(), "x", remarks),
+                    Catch::Contains("no column of robot \"hinge_rig\""));
   recording::Table gap = sine(100);
   for (std::size_t k = 50; k < 100; ++k) gap.columns[0].values[k] += 100;
-  CHECK_THROWS_WITH(lay_out(gap, rig_of_recording(), "x", remarks), Catch::Contains("no rows for"));
+  CHECK_THROWS_WITH(lay_out(gap, hinge_rig(), "x", remarks), Catch::Contains("no rows for"));
 }
 
 TEST_CASE("a window gives the mean, rate and acceleration of a parabola exactly") {

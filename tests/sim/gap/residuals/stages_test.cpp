@@ -14,7 +14,7 @@ using namespace sim::residuals;
 
 namespace {
 
-erp::Robot hinge_rig() { return erp::read_robot(rigs::config("hinge_rig/robot.xml")); }
+using rigs::hinge_rig;
 
 /// The rig with one effect of visible size.
 erp::Robot with(const std::string& type) {

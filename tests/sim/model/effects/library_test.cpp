@@ -11,10 +11,10 @@ namespace effects = sim::effects;
 
 namespace {
 
-erp::Robot rig_robot() { return erp::read_robot(rigs::config("rig_robot/robot.xml")); }
+using rigs::hinge_rig;
 
 std::string error_of(const erp::Effect& effect) {
-  erp::Robot robot = rig_robot();
+  erp::Robot robot = hinge_rig();
   robot.effects = {effect};
   try {
     effects::read_effects(robot);
@@ -53,9 +53,9 @@ TEST_CASE("default values are within the bounds, and each effect has a fitted pa
 }
 
 TEST_CASE("an effect with default parameters does not change the robot") {
-  const std::string unchanged = erp::write_robot(rig_robot());
+  const std::string unchanged = erp::write_robot(hinge_rig());
   for (const auto& effect : effects::library()) {
-    erp::Robot robot = rig_robot();
+    erp::Robot robot = hinge_rig();
     robot.effects = {effects::written({magnitudes::place_in_rig(effect), effect})};
     INFO(effects::about(effect).type);
     erp::Robot equipped = effects::equip(robot).robot;
@@ -70,7 +70,7 @@ TEST_CASE("written effects are read with the same parameters") {
   for (const auto& [type, values] : magnitudes::all()) {
     INFO(type);
     const auto effect = magnitudes::visible(type);
-    erp::Robot robot = rig_robot();
+    erp::Robot robot = hinge_rig();
     robot.effects = {effects::written({magnitudes::place_in_rig(effect), effect})};
     const erp::Robot read = xml::parse<erp::Robot>(erp::write_robot(robot), "rig.xml");
     auto read_effects = effects::read_effects(read);
@@ -96,7 +96,7 @@ TEST_CASE("errors in effects are reported with a suggestion") {
 }
 
 TEST_CASE("an effect on the motor of one actuator does not change another actuator") {
-  erp::Robot robot = rig_robot();
+  erp::Robot robot = hinge_rig();
   robot.effects = {{{}, "motor_resistance", "flexor", {{{}, "relative", "0.5"}}},
                    {{}, "motor_resistance", "flexor", {{{}, "relative", "0.5"}}}};
   const erp::Robot changed = effects::equip(robot).robot;
@@ -105,7 +105,7 @@ TEST_CASE("an effect on the motor of one actuator does not change another actuat
 }
 
 TEST_CASE("the kite line softens the spring, and also acts in each step with the path length") {
-  erp::Robot robot = rig_robot();
+  erp::Robot robot = hinge_rig();
   robot.effects = {{{}, "tendon_kite_line", "flexor", {{{}, "compliance_m_per_N", "1e-4"}}}};
   const auto [changed, acting] = effects::equip(robot);
   CHECK(*changed.actuators[0].tendon.line_stiffness_N_per_m == Approx(1e4));
@@ -114,7 +114,7 @@ TEST_CASE("the kite line softens the spring, and also acts in each step with the
 }
 
 TEST_CASE("a payload changes mass, centre of mass and inertia by the parallel axis theorem") {
-  erp::Robot robot = rig_robot();
+  erp::Robot robot = hinge_rig();
   robot.effects = {{{}, "skeleton_payload", "forearm", {{{}, "mass_kg", "0.2"}}}};
   const erp::Body body = effects::equip(robot).robot.bodies()[1];
   CHECK(body.mass_kg == Approx(1.0));
@@ -125,9 +125,9 @@ TEST_CASE("a payload changes mass, centre of mass and inertia by the parallel ax
 
 TEST_CASE(
     "base tilt rotates gravity, and link flexibility keeps mass, centre of mass and inertia") {
-  erp::Robot robot = rig_robot();
+  erp::Robot robot = hinge_rig();
   robot.effects = {
-      {{}, "skeleton_base_tilt", "rig_robot", {{{}, "about_y_rad", "0.1"}}},
+      {{}, "skeleton_base_tilt", "hinge_rig", {{{}, "about_y_rad", "0.1"}}},
       {{}, "skeleton_link_flexibility", "forearm", {{{}, "compliance_rad_per_Nm", "0.1"}}}};
   const auto [changed, acting] = effects::equip(robot);
   const auto g = changed.gravity_m_per_s2();
