@@ -10,7 +10,7 @@ namespace experience = sim::experience;
 namespace {
 
 /// The robot with seven hinges, a short training.
-ExperienceTraining training() {
+ExperienceTraining experience_training() {
   const erp::Robot robot = erp::read_robot(rigs::config("seven_dof/robot.xml"));
   auto task = xml::read<experience::Task>(rigs::config("seven_dof/acquisition.xml"));
   task.rounds = 8, task.batch = 24;
@@ -42,7 +42,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a checkpoint with another seed is rejected") {
-  auto trained = training();
+  auto trained = experience_training();
   auto state = trained.state();
   state.replace(state.find("seed=\"1\""), 8, "seed=\"2\"");
   CHECK_THROWS_WITH(trained.restore(state, "state.xml"), Catch::Contains("another seed"));

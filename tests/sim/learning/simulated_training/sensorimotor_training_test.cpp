@@ -11,7 +11,7 @@ using namespace sim::simulated_training;
 namespace {
 
 /// The pendulum with a few goals.
-SensorimotorTraining training() {
+SensorimotorTraining sensorimotor_training() {
   auto experiment =
       xml::read<sim::sensorimotor::Experiment>(rigs::config("pendulum/sensorimotor.xml"));
   experiment.grids.front().columns = experiment.grids.front().rows = 2;

@@ -11,7 +11,7 @@ using namespace sim::simulated_training;
 namespace {
 
 /// The arm strikes a bottle near its hand, from three rough plans.
-SynergyTraining training() {
+SynergyTraining synergy_training() {
   const erp::Robot robot = erp::read_robot(rigs::config("arm/robot.xml"));
   sim::synergy::Task task;
   task.rounds = 12, task.batch = 16, task.times = {0.5, 1, 0.5};
@@ -35,7 +35,7 @@ TEST_CASE("from three rough plans an arm learns to strike targets of a zone") {
   REQUIRE(metrics.at(1).name == "returned_percent");
   CHECK(metrics.at(1).value == 100);
   CHECK(trained.bank().plans().size() > 20);
-  const auto untrained = training();
+  const auto untrained = synergy_training();
   CHECK(untrained.bank().plans().size() == 3);
   double before_m = 0, after_m = 0;
   for (std::size_t k = 0; k < 12; ++k) {
@@ -50,7 +50,7 @@ TEST_CASE("from three rough plans an arm learns to strike targets of a zone") {
 }
 
 TEST_CASE("a checkpoint with other muscles is rejected") {
-  auto trained = training();
+  auto trained = synergy_training();
   auto saved = xml::parse<sim::synergy::BankFile>(trained.state(), "state.xml");
   saved.muscles.all.pop_back();
   for (auto& plan : saved.plans.all) plan.weights_m.pop_back();
