@@ -21,7 +21,7 @@ ExperienceTraining experience_training() {
 
 TEST_CASE(
     "on seven hinges offsets fall to a tenth in 8 rounds, and below 1 mm with linear feedback") {
-  const auto trained = training_runs::run_in_three_ways("experience", training);
+  const auto trained = training_runs::run_in_three_ways("experience", experience_training);
   CHECK(trained.rounds() == 8);
   CHECK(trained.tripped() == 0);
   CHECK(trained.base().all().size() == 8 * 24);

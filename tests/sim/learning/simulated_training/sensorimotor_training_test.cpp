@@ -25,7 +25,7 @@ SensorimotorTraining sensorimotor_training() {
 TEST_CASE(
     "the pendulum's Q has the signs of the paper's figure 9b, and errors fall below 60 % in 5 "
     "trials") {
-  const auto trained = training_runs::run_in_three_ways("sensorimotor", training);
+  const auto trained = training_runs::run_in_three_ways("sensorimotor", sensorimotor_training);
   CHECK(trained.rounds() == 6);
   const Eigen::MatrixXd q = trained.learned().q();
   const Eigen::MatrixXd signs = (Eigen::MatrixXd(2, 4) << 1, 1, -1, -1, -1, 1, 1, -1).finished();

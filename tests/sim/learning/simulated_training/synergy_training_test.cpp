@@ -30,7 +30,7 @@ SynergyTraining synergy_training() {
 }  // namespace
 
 TEST_CASE("from three rough plans an arm learns to strike targets of a zone") {
-  const auto trained = training_runs::run_in_three_ways("synergy", training);
+  const auto trained = training_runs::run_in_three_ways("synergy", synergy_training);
   const auto metrics = trained.metrics();
   REQUIRE(metrics.at(1).name == "returned_percent");
   CHECK(metrics.at(1).value == 100);
