@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <ostream>
 #include <set>
 #include <stdexcept>
@@ -86,16 +85,16 @@ int model_info(const std::string& robot_file, bool json, std::ostream& out) {
   const erp::Robot robot = erp::read_robot(robot_file);
   const ModelProperties properties = properties_of(robot);
   out << fmt::format(
-      fmt::runtime(json ? "{{\"robot\": {}, \"bodies\": {}, \"joints\": {}, "
+      fmt::runtime(json ? "{{\"robot\": \"{}\", \"bodies\": {}, \"joints\": {}, "
                           "\"degrees_of_freedom\": {}, \"actuators\": {}, \"muscles\": {}, "
                           "\"mass_kg\": {:.6g}, \"ecus\": {}, \"buses\": {}, \"drives\": {}}}\n"
                         : "robot               {}\nbodies              {}\njoints              {}\n"
                           "degrees of freedom  {}\nactuators           {}\nmuscles             {}\n"
                           "mass                {:.6g} kg\nECUs                {}\n"
                           "buses               {}\ndrives              {}\n"),
-      json ? nlohmann::json(properties.name).dump() : properties.name, properties.bodies,
-      properties.joints, properties.degrees_of_freedom, properties.actuators, properties.muscles,
-      properties.mass_kg, properties.ecus, properties.buses, properties.drives);
+      properties.name, properties.bodies, properties.joints, properties.degrees_of_freedom,
+      properties.actuators, properties.muscles, properties.mass_kg, properties.ecus,
+      properties.buses, properties.drives);
   for (const erp::Drive& drive : robot.drives)
     if (!json) out << fmt::format("drive               {}\n", description(drive));
   if (!json)

@@ -5,7 +5,6 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 namespace fs = std::filesystem;
@@ -32,16 +31,6 @@ TEST_CASE("info lists the effects of robot.xml") {
   CHECK(launch::model_info(file, false, text) == 0);
   fs::remove(file);
   CHECK_THAT(text.str(), Catch::EndsWith("effect              joint_coulomb on elbow\n"));
-}
-
-TEST_CASE("info as JSON keeps a quote in the name of the robot") {
-  const auto file =
-      (fs::temp_directory_path() / ("erp_quote_" + std::to_string(getpid()))).string();
-  std::ofstream(file) << "<robot name='my \"arm\"'><include file=\"" << arm << "\"/></robot>";
-  std::ostringstream json;
-  CHECK(launch::model_info(file, true, json) == 0);
-  fs::remove(file);
-  CHECK(nlohmann::json::parse(json.str()).at("robot") == "my \"arm\"");
 }
 
 TEST_CASE("an unknown file name extension is rejected with the known ones") {
