@@ -13,7 +13,7 @@ struct Spot {
 };
 
 struct SpotOptions {
-  int threshold = 90;
+  int threshold = 90;         ///< grey level, 0 … 255; pixels of a spot are brighter
   double min_area_px = 6;     ///< smaller ones are noise
   double max_area_px = 2000;  ///< larger ones are lamps
 };

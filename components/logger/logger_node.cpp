@@ -14,7 +14,8 @@
 namespace logger {
 namespace {
 
-// Queue length while the disk stalls; chosen: 40 s of the fastest topic, some seconds in lockstep.
+// Messages that a reader keeps while the disk stalls. Chosen: 40 s of the fastest topic in real time,
+// some seconds in lockstep, where messages are sent faster.
 constexpr int queue_depth = 20'000;
 constexpr std::int64_t take_period_ns = 2'000'000;
 constexpr std::int64_t discover_period_ns = 250'000'000;
@@ -38,7 +39,8 @@ std::vector<recording::Attachment> attachments(const std::string& files) {
   return attachments;
 }
 
-/// Renames an existing recording to the next free name: run.mcap becomes run.1.mcap.
+/// Moves an existing recording to the next free name (run.mcap becomes run.1.mcap). Returns `file`,
+/// which is free then.
 std::string rename_existing(const std::string& file) {
   namespace fs = std::filesystem;
   const fs::path path(file);
@@ -132,8 +134,8 @@ void LoggerNode::write(Topic& topic, const node::RawSample& raw) {
   recording::Sample sample;
   sample.writer = {writer, static_cast<std::size_t>(end - writer)};
   sample.publish_time_ns = static_cast<std::uint64_t>(header.stamp_ns.value_or(raw.source_ns));
-  // In lockstep all log times are simulated, since wall time in the same file would break their
-  // order.
+  // In lockstep log times are simulated times. The clock follows the newest message, so they never
+  // decrease.
   if (node_.clock().lockstep())
     node_.clock().advance(std::max(node_.clock().now_ns(), raw.source_ns));
   sample.log_time_ns = static_cast<std::uint64_t>(node_.clock().now_ns());

@@ -28,7 +28,7 @@ class DisturbanceObserver {
 
  private:
   static constexpr double w_per_s =
-      1;  // chosen: with a larger w the motors react too slowly to an attached load
+      1;  // chosen: with a larger w the estimate changes faster than the motors can follow
   Eigen::VectorXd speed_, disturbance_, innovation_;
 };
 

@@ -68,7 +68,7 @@ Eigen::Isometry3d pose_in(const Foreign& element) {
   if (!pose) return Eigen::Isometry3d::Identity();
   if (const auto other = pose->attribute("relative_to"); other && !other->empty())
     pose->reject("relative_to=\"" + *other + "\" is not supported",
-                 "give the pose relative to the model, which is the default of SDF");
+                 "leave relative_to out and give the pose in the default frame of SDF");
   return pose_of(pose->numbers(6));
 }
 

@@ -9,21 +9,21 @@
 #include "sim/world/world.hpp"
 
 /// The ECUs of a simulated robot: firmware/core on one channel per actuator, between the world's
-/// sensors and its motors. No clock, no bus. A tick is 2 ms of the world's time.
+/// sensors and its motors. Needs no wall clock and no middleware. A tick is 2 ms of the world's time.
 ///
 ///   measure -> counts -> ecu_tick -> duty -> V = duty / 1023 · supply, constant over the tick ->
 ///   measure
 ///
 /// World::save does not contain the state of ECUs and sensors.
 ///
-/// Effects of the robot on its sensors and its bus act here.
+/// The effects of robot.xml on sensors and on the bus act here.
 ///
-/// A duty of 0 shorts the motor, which brakes, like the H-bridge of the ECU.
+/// A duty of 0 applies 0 V: the motor is shorted and brakes, as at the H-bridge of the ECU.
 namespace sim {
 
 struct VirtualEcuOptions {
   int substeps = 2;        ///< physics steps per tick; 2: 1 kHz
-  std::uint64_t seed = 1;  ///< of the sensor noise; each sensor derives its own from it
+  std::uint64_t seed = 1;  ///< of sensor noise and bus effects; each derives its own from it
 };
 
 class VirtualEcus {
@@ -34,7 +34,7 @@ class VirtualEcus {
   VirtualEcus(const VirtualEcus&) = delete;
   VirtualEcus& operator=(const VirtualEcus&) = delete;
 
-  /// Faults to inject from now on; not owned, or null.
+  /// Faults to inject from now on; null: none. Not owned.
   void inject(const FaultInjection* faults) { converters_.inject(faults); }
 
   /// Messages from the bus. Channels that the robot does not have are ignored.
@@ -45,7 +45,8 @@ class VirtualEcus {
   void measure(const World& world);
   /// One control period: runs the firmware on the last measurement, advances the world, measures.
   void tick(World& world);
-  /// The last measurement and the duty applied up to it. Sets channels and analogs only.
+  /// The last measurement and the duty applied up to it; with bus effects, the newest frame that
+  /// the bus has delivered. Sets channels and analogs only.
   void fill(erp::EcuFrame& frame) const;
 
   /// In robot.xml's order of actuators; valid during the lifetime of this object.

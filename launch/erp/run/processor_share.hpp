@@ -8,7 +8,8 @@ namespace launch {
 
 class ProcessorShare {
  public:
-  /// Percent of one core since the last call; −1 at the first call or when the process has ended.
+  /// Percent of one core, averaged over at least 0.5 s; calls in between return the previous value.
+  /// −1 at the first call for a process or when it has ended.
   double measure(pid_t pid, std::int64_t now_ns);
 
  private:

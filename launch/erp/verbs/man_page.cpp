@@ -9,7 +9,7 @@
 namespace launch {
 namespace {
 
-/// One UTF-8 character in roff: special characters are escaped, characters outside ASCII are given
+/// The UTF-8 character at text[i] in roff; moves `i` past it. Special characters are escaped, characters outside ASCII are given
 /// by number.
 std::string roff_character(const std::string& text, std::size_t& i) {
   const auto byte = static_cast<unsigned char>(text[i++]);
@@ -24,8 +24,8 @@ std::string roff_character(const std::string& text, std::size_t& i) {
   return number;
 }
 
-/// Text of a paragraph in roff. Line breaks are kept; `\&` prevents that a line is read as a roff
-/// request.
+/// Text of a paragraph in roff. Line breaks are kept, empty lines and indentation are not. `\&`
+/// prevents that a line is read as a roff request.
 std::string roff(const std::string& text) {
   std::string out;
   for (std::size_t i = 0; i < text.size();) {
@@ -80,9 +80,13 @@ std::string usage(const CLI::App& verb, const std::string& name) {
   return text + " [options]";
 }
 
+/// Former names of verbs are in no group, and not listed.
+bool is_listed(const CLI::App* verb) { return !verb->get_group().empty(); }
+
+/// `common_footer`: footer of the program, which every verb inherits; printed once, at the end.
 void print_verb(const CLI::App& verb, const std::string& name, const std::string& common_footer,
                 std::ostream& out) {
-  const auto verbs = verb.get_subcommands([](const CLI::App*) { return true; });
+  const auto verbs = verb.get_subcommands(is_listed);
   if (verbs.empty()) {
     out << ".SS " << usage(verb, name) << '\n' << roff(verb.get_description()) << ".\n";
     print_options(verb, out);
@@ -110,7 +114,7 @@ void print_man_page(const CLI::App& app, std::ostream& out) {
       << "\\fR \\fIVERB\\fR \\fB\\-\\-help\\fR\n.br\n\\fB" << name
       << "\\fR \\fB\\-\\-version\\fR\n";
   std::string group;
-  for (const auto* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
+  for (const auto* verb : app.get_subcommands(is_listed)) {
     if (verb->get_group() != group)
       out << ".SH " << roff(to_upper(group = verb->get_group())) << '\n';
     print_verb(*verb, name + " " + verb->get_name(), app.get_footer(), out);

@@ -7,22 +7,26 @@
 /// One file per effect, and one line in all.hpp. An effect is a plain struct:
 ///
 ///   static constexpr About about     name, stage, kind of target, and the excitation that shows it
-///   parameters, and `visit`          default values change nothing; v.shape: not estimated
+///   parameters, and `visit`          default values change nothing; a parameter that `visit` passes
+///                                    to v.shape(…) instead of v(…) is not estimated
 ///   one or more seams                the functions below; the simulator and the diagnosis call
 ///                                    them where they compute the quantity
 ///
-/// Seams that change constants, called once (parameters are `auto&`, because the structs of
+/// Seams that change constants, called once (arguments are `auto&`, because the structs of
 /// interfaces/robot are not included):
 ///   change_motor(motor)  change_actuator(actuator)  change_joint(joint)  change_body(body)
-///   change_robot(robot, on)                  acts_per_step: the seams below also act
+///   change_robot(robot, on)                  `on`: name of the target
+/// An effect with one of these seams and one of those below declares
+///   static constexpr bool acts_per_step = true
 /// Seams in the chain of an actuator, called in each step:
 ///   voltage_V(V, s)                   voltage at the motor for the voltage V that the ECU applies
-///   driver_delay_s()                  delay until this voltage acts
-///   delayed_voltage_V(V, s, memory)      the delayed voltage, its mean over a step
+///   driver_delay_s()                  delay until this voltage acts, for the diagnosis
+///   delayed_voltage_V(V, s, memory)   mean of the delayed voltage over a step, for the simulator
 ///   resistance_ohm(R, s, memory)      of the winding
 ///   rotor_Nm(s)                       torque against winding up, on the motor's shaft
 ///   friction_Nm(direction, s)         added to the gearbox's Coulomb friction
-///   aged_Nm(s, memory)                the same for an effect with memory, called once per step
+///   aged_Nm(s, memory)                also added to that friction, by an effect with memory;
+///                                     called once per step
 ///   wound(s, wound, memory)           length of the line on the spindle
 ///   path(s, path)                     the length of the tendon's path
 ///   pull(s, memory)                   added to the tension
@@ -30,19 +34,19 @@
 /// Seams in a joint:
 ///   joint_friction_Nm(speed)          added to the joint's Coulomb friction
 ///   joint_torque(angle)               torque about the joint's axis
-///   sensor_shaft_rad(angle, memory)        angle of the sensor's shaft
-///   play_rad()                   total play of that shaft
+///   sensor_shaft_rad(angle, memory)   angle of the sensor's shaft
+///   play_rad()                        total play of that shaft
 /// Seams of sensors (`static constexpr Sense sense`) and of the bus:
 ///   read(value, s, memory)            the reading;   undo(reading, s, memory)  its inverse
-///   averaged(s)                       weight, 0 … 1, with which `undo` returns the mean around the
-///                                     sample instead of the value at its instant
+///   averaged(s)                       what `undo` returns: 0, the value at the instant of the
+///                                     sample; 1, the mean around it; between, a mixture
 ///   command_delay_s(u)  frame_delay_s(u)  loses_command(u)    u: uniform in 0 … 1, new per call
 namespace sim::effects {
 
 /// The stage of the model that an effect belongs to.
 enum class Stage { bus, motor, gearbox, spindle, tendon, routing, joint, skeleton, sensor };
 
-/// The kind of target that `on` names.
+/// The kind of target; `on` in robot.xml is its name.
 enum class Seat { actuator, joint, body, robot };
 
 enum class Sense { shaft, current, tension, joint };
@@ -73,15 +77,15 @@ struct ChainSample {
   double radius_m = 0;                        ///< of the spindle
   double tension_N = 0;                       ///< at the distal end
   double load_Nm = 0;                         ///< torque of the line on the gearbox shaft
-  double stretch_m = 0;                       ///< Δx; for `wound`, with the nominal wound length
-  double stiffness_N_per_m = 0;               ///< dF/dΔx of the spring at this stretch
+  double stretch_m = 0;          ///< Δx; when `wound` is called, from the nominal wound length
+  double stiffness_N_per_m = 0;  ///< dF/dΔx of the spring at this stretch
   double path_m = 0, path_change_m = 0;  ///< length of the path, and its change since the start
   double wrap_rad = 0;                   ///< total bend of the path
-  bool pushes = false;                   ///< a shaft, which also transmits compression, not a line
-  double line_speed_m_per_s = 0;         ///< along the path, positive towards the spindle
+  bool pushes = false;  ///< the actuator has a rigid rod, which can push, instead of a line
+  double line_speed_m_per_s = 0;  ///< along the path, positive towards the spindle
 };
 
-/// A quantity and its derivative: d m/d rad, d m/d m, d N/d m, d Nm/d rad.
+/// A quantity and its slope, in m/rad, m/m, N/m or Nm/rad.
 struct Sloped {
   double value = 0, slope = 0;
 };

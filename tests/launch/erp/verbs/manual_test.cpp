@@ -83,6 +83,7 @@ TEST_CASE("the manual page has every verb, and groff formats it without a warnin
   CHECK(verbs.size() > 30);
   for (const auto& verb : verbs) CHECK_THAT(page.output, Contains("\n   " + verb + " "));
   CHECK_THAT(page.output, Contains("--lockstep") && Contains("EXIT STATUS"));
+  CHECK_THAT(page.output, !Contains("gap twins"));  // a former name
 }
 
 TEST_CASE("bash completes verbs, verbs of a family, and the options of a verb") {
