@@ -11,7 +11,7 @@ namespace {
 
 using xml::Tree;
 
-constexpr double half_turn_rad = 3.14159;  // rad: half a turn, rounded down
+constexpr double half_turn_rad = 3.14159;  // rounded down
 constexpr auto sdf_world = "world";
 constexpr const char* moments[]{"ixx", "iyy", "izz", "ixy", "ixz", "iyz"};
 

@@ -11,7 +11,7 @@ namespace {
 
 using xml::Tree;
 
-constexpr double unlimited_rad = 3.14159;  // rad: half a turn, rounded down
+constexpr double unlimited_rad = 3.14159;  // half a turn, rounded down
 constexpr auto urdf_world = "world";
 
 void add_link(Tree& root, const std::string& name, const erp::Mass& mass) {

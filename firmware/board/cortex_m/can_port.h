@@ -16,6 +16,6 @@ bool can_port_is_off(void);
 
 bool can_port_receive(bus_frame* frame);
 
-/* Returns false while there is no room; the caller then tries again. */
+/* Returns false while there is no room; the caller then repeats the call. */
 bool can_port_send(const bus_frame* frame);
 #endif

@@ -93,7 +93,7 @@ class Vote {
       try_scaled(column, -1, "");
     }
     try_exchanges();
-    if (best_.empty()) try_any_factor();
+    if (best_.empty()) test_any_factor();
     return best_;
   }
 
@@ -126,9 +126,9 @@ class Vote {
       for (std::size_t j = i + 1; j < means_.joints.size(); ++j) pair(Quantity::angle, i, j);
   }
 
-  /// Tries the factors that would satisfy an impossible law. If no factor helps, reports the
+  /// Tests the factors that would satisfy an impossible law. If no factor helps, reports the
   /// columns of the first impossible law as contradicting.
-  void try_any_factor() {
+  void test_any_factor() {
     std::vector<Law> impossible;
     for (const auto& laws : before_)
       std::ranges::copy_if(laws, std::back_inserter(impossible), is_impossible);

@@ -21,7 +21,6 @@ using diagnosis::ClosedGap;
 using residuals::Episode;
 using residuals::Signal;
 
-constexpr double tick_s = 0.002;
 constexpr std::size_t held_rows = 10;      // the ECU holds its last command for 20 ms
 constexpr double max_offset_rad = 0.05;    // from the initial pose; chosen
 constexpr double max_period_error = 0.01;  // relative; chosen
@@ -41,14 +40,14 @@ std::size_t first_long_gap(const residuals::ActuatorSignals& actuator, std::size
 
 /// Reason why a recording cannot be simulated; empty: it can be simulated.
 std::string obstacle(const Episode& e, const erp::Robot& robot) {
-  if (std::abs(e.period_s / tick_s - 1) > max_period_error)
+  if (std::abs(e.period_s / residuals::tick_s - 1) > max_period_error)
     return "its row period differs from the ECU tick of 2 ms";
   for (std::size_t a = 0; a < e.actuators.size(); ++a)
     if (e.actuators[a].mode.empty() || e.actuators[a].reference.empty())
       return "it lacks mode and reference of " + robot.actuators[a].name;
   for (const auto& actuator : e.actuators)
     if (const auto gap = first_long_gap(actuator, e.rows); gap < e.rows)
-      return "rows are missing at " + xml::write_number(double(gap) * tick_s) + " s";
+      return "rows are missing at " + xml::write_number(double(gap) * residuals::tick_s) + " s";
   const auto joints = robot.joints();
   for (std::size_t j = 0; j < joints.size(); ++j)
     if (const Signal& angle = e.joints[j].angle_rad;
@@ -119,10 +118,10 @@ Errors errors_of(const Episode& e, const erp::Robot& nominal, const erp::Robot& 
     if (truth.empty()) continue;
     auto& [unit, seconds] = errors[real[c].column];
     unit = real[c].unit;
-    seconds.resize(std::size_t(double(e.rows) * tick_s) + 1);
+    seconds.resize(std::size_t(double(e.rows) * residuals::tick_s) + 1);
     for (std::size_t k = 0; k < std::min(e.rows, b.size()); ++k) {
       if (std::isnan(truth[k]) || !e.judged(k)) continue;
-      Second& second = seconds[std::size_t(double(k) * tick_s)];
+      Second& second = seconds[std::size_t(double(k) * residuals::tick_s)];
       second.before += std::pow(b[k] - truth[k], 2), second.after += std::pow(a[k] - truth[k], 2);
       second.floor += std::pow(n[k] - a[k], 2), ++second.rows;
     }

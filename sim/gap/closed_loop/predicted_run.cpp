@@ -11,8 +11,6 @@
 namespace sim::closed_loop {
 namespace {
 
-constexpr double ecu_tick_s = 0.002;
-
 class PredictedRun {
  public:
   PredictedRun(const erp::Robot& robot, std::uint64_t seed, const Ecus& ecus)
@@ -39,7 +37,7 @@ class PredictedRun {
       for (std::size_t a = 0; a < last_.size(); ++a)
         if (!std::isnan(row[a].reference)) last_[a] = row[a];
       simulated_.tick(commanded());
-      append_row(ecu_tick_s * static_cast<double>(table_.rows()));
+      append_row(residuals::tick_s * static_cast<double>(table_.rows()));
     }
     return std::move(table_);
   }

@@ -10,7 +10,7 @@ namespace sim::diagnosis {
 namespace {
 
 constexpr double coarse_ratio = 1.8;               // step / step of the data sheet; chosen
-constexpr std::size_t min_different_readings = 8;  // different readings; chosen
+constexpr std::size_t min_different_readings = 8;  // chosen
 
 void add(std::vector<effects::Placed>& all, const char* type, const std::string& on, double step,
          double finest) {

@@ -8,7 +8,7 @@ namespace sim::diagnosis {
 namespace {
 
 constexpr std::size_t bins = 16;                // chosen
-constexpr std::size_t min_windows_per_bin = 5;  // windows per bin; chosen
+constexpr std::size_t min_windows_per_bin = 5;  // chosen
 constexpr const char* time_name = "time";
 
 /// Residuals of one stage with their variables, over several recordings.
