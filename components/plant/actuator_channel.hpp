@@ -19,9 +19,10 @@
 ///   armed       off                      commanded mode, if the command arrived after arming
 ///   running     safe action              commanded mode, rate limits of robot.xml
 ///     if the limb is degraded            safe action
-///     if the tendon is slack             winds the slack up slowly; when snapped, off until the
-///                                        owner commands mode off
-///   fault       clear if the host was silent, otherwise off until the owner commands mode off
+///     if the tendon is slack: winds the slack up slowly, with or without an owner
+///     if the tendon has snapped: off; a command of mode off by the owner resets this
+///   fault, with or without an owner: clear if the host was silent; otherwise off, and clear once
+///     the owner commands mode off
 namespace plant {
 
 inline constexpr std::string_view outranked_reason = "another controller is the owner";
@@ -75,7 +76,7 @@ class ActuatorChannel {
 
   std::string_view owner() const { return arbiter_.owner(); }
   std::int32_t priority() const { return priority_; }
-  /// The active safe action; none while there is an owner or the ECU is off.
+  /// The active safe action; none while the owner's commands are followed or the ECU is off.
   erp::SafeAction safe_action() const { return active_safe_action_; }
   TendonState tendon() const { return tendon_monitor_.state(); }
   std::uint32_t limited() const { return limited_; }

@@ -1,7 +1,6 @@
 #include "launch/erp/record/log.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <ostream>
 
@@ -16,12 +15,6 @@ namespace launch {
 namespace {
 
 using recording::McapReader;
-
-std::string decimal(const char* format, double value) {
-  char text[48];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 std::string bytes(std::size_t size) {
   if (size < 1000) return std::to_string(size) + " B";

@@ -1,28 +1,20 @@
 #include "launch/erp/run/status_table.hpp"
 
-#include <cstdio>
-
 #include "launch/erp/text/columns.hpp"
 #include "launch/erp/text/duration.hpp"
 
 namespace launch {
 namespace {
 
-std::string formatted(const char* format, double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
-std::string rate(double rate_Hz) { return rate_Hz > 0 ? formatted("%.0f Hz", rate_Hz) : "-"; }
+std::string rate(double rate_Hz) { return rate_Hz > 0 ? decimal("%.0f Hz", rate_Hz) : "-"; }
 
 }  // namespace
 
 std::string microseconds(double duration_us) {
   if (duration_us <= 0) return "-";
-  if (duration_us < 1000) return formatted("%.0f µs", duration_us);
-  if (duration_us < 1e6) return formatted("%.1f ms", duration_us * 1e-3);
-  return formatted("%.1f s", duration_us * 1e-6);
+  if (duration_us < 1000) return decimal("%.0f µs", duration_us);
+  if (duration_us < 1e6) return decimal("%.1f ms", duration_us * 1e-3);
+  return decimal("%.1f s", duration_us * 1e-6);
 }
 
 std::vector<std::string> render_rows(const std::vector<Row>& rows) {
@@ -33,7 +25,7 @@ std::vector<std::string> render_rows(const std::vector<Row>& rows) {
   for (const auto& row : rows)
     cells.push_back({row.name, row.state, row.pid > 0 ? std::to_string(row.pid) : "-",
                      rate(row.rate_Hz), microseconds(row.age_p50_us), microseconds(row.age_p99_us),
-                     row.cpu_percent < 0 ? "-" : formatted("%.0f %%", row.cpu_percent),
+                     row.cpu_percent < 0 ? "-" : decimal("%.0f %%", row.cpu_percent),
                      row.restarts < 0 ? "-" : std::to_string(row.restarts),
                      std::to_string(row.missed), std::to_string(row.overruns),
                      microseconds(row.jitter_p99_us), row.note});

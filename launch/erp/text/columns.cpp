@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 
 namespace launch {
 namespace {
@@ -13,6 +14,12 @@ std::size_t characters(const std::string& text) {
 }
 
 }  // namespace
+
+std::string decimal(const char* format, double value) {
+  char text[48];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
 
 std::string clipped(const std::string& text, std::size_t width) {
   return fmt::format("{:.{}}", text, width);

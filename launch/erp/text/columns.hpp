@@ -10,6 +10,9 @@ namespace launch {
 std::vector<std::string> align(const std::vector<std::vector<std::string>>& rows,
                                const std::vector<bool>& right_aligned);
 
+/// A number in a printf format with one floating-point conversion, for example "%.1f Hz".
+std::string decimal(const char* format, double value);
+
 /// The first `width` characters of a UTF-8 text.
 std::string clipped(const std::string& text, std::size_t width);
 
