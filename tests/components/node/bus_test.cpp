@@ -69,6 +69,30 @@ TEST_CASE("a message of two samples after one of five arrives with two samples")
   CHECK(length == 2);
 }
 
+TEST_CASE("the first message after the end of another writer arrives with its own samples") {
+  Pair pair;
+  {
+    node::Writer<erp::SensorFrame> earlier{pair.left};
+    auto frame = frame_of(2);
+    frame.actuators._buffer[0].tension_N = 99;
+    while (!earlier.matched()) std::this_thread::sleep_for(1ms);
+    earlier.write(frame);
+    pair.take([](const auto&) {});
+  }
+  for (int k = 0; k < 100; ++k) {  // until the end of the writer has arrived
+    pair.reader.take([](const auto&) {});
+    std::this_thread::sleep_for(1ms);
+  }
+  auto frame = frame_of(3);
+  pair.writer.write(frame);
+  double tension_N = -1;
+  pair.take([&](const erp::SensorFrame& message) {
+    REQUIRE(message.actuators._length == 3);
+    tension_N = message.actuators._buffer[0].tension_N + message.actuators._buffer[2].tension_N;
+  });
+  CHECK(tension_N == 2);
+}
+
 TEST_CASE("a gap of three sequence numbers is counted as three missed messages") {
   Pair pair(16);
   auto frame = frame_of(1);
