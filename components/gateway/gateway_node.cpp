@@ -172,7 +172,7 @@ void GatewayNode::publish_tick() {
   auto& frame = gateway_.frame();
   // Simulated time starts at the first tick, as in the simulator.
   node_.clock().advance(static_cast<std::int64_t>(frame.sequence - 1) * tick_ns);
-  frame.stamp_ns = node_.clock().now_ns();
+  frame.stamp_ns = node_.clock().stamp_ns();
   if (frame.sequence % clock_period_ticks == 1) publish_clock();
   frame_out_.publish_numbered(frame);
 }

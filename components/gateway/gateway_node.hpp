@@ -28,6 +28,7 @@ class GatewayNode {
         "run.log becomes run.left.log for the bus left.");
     }
   };
+  static const char* role(const Params&) { return node::device_role; }
   GatewayNode(const Params& params, const erp::Robot& robot, node::Node& node);
 
  private:

@@ -48,10 +48,12 @@ ImageSource::ImageSource(const ImageSourceParams& params, const sim::cameras::Vi
 
 void ImageSource::render(const erp::JointState& truth) {
   const auto period_ns = std::llround(1e9 * params_.period_s);
-  const auto tolerance_ns = period_ns / 100;  // rounding of the stamps; chosen
-  if (truth.stamp_ns - rendered_ns_ < period_ns - tolerance_ns || !names_.read(truth, truth_))
-    return;
+  const auto tolerance_ns = period_ns / 100;            // rounding of the stamps; chosen
+  const auto since_ns = truth.stamp_ns - rendered_ns_;  // negative: the clock was set back
+  const bool is_due = since_ns < 0 || since_ns >= period_ns - tolerance_ns;
+  if (!is_due || !names_.read(truth, truth_)) return;
   rendered_ns_ = truth.stamp_ns;
+  node_.clock().advance(truth.stamp_ns);
   model_.place(truth_);
   const auto world_position_m = [&](const OnBody& part, const sim::Vec3& at_m) -> sim::Vec3 {
     const sim::BodyPose& pose = model_.poses()[part.body];
@@ -88,7 +90,7 @@ void ImageSource::read_files() {
     frame_[c] = std::move(*image);
   }
   const double ticks = static_cast<double>(frame_count_) * params_.period_s / tick_s;
-  pass_frame(static_cast<std::uint64_t>(std::llround(ticks)), node_.clock().now_ns());
+  pass_frame(static_cast<std::uint64_t>(std::llround(ticks)), node_.clock().stamp_ns());
 }
 
 void ImageSource::pass_frame(std::uint64_t sequence, std::int64_t stamp_ns) {

@@ -137,12 +137,18 @@ void LoggerNode::write(Topic& topic, const node::RawSample& raw) {
   // In lockstep log times are simulated times. The clock follows the newest message, so they never
   // decrease.
   if (node_.clock().lockstep())
-    node_.clock().advance(std::max(node_.clock().now_ns(), raw.source_ns));
-  sample.log_time_ns = static_cast<std::uint64_t>(node_.clock().now_ns());
+    node_.clock().advance(std::max(node_.clock().stamp_ns(), raw.source_ns));
+  sample.log_time_ns = static_cast<std::uint64_t>(log_time_ns());
   sample.sequence = header.sequence;
   sample.cdr = raw.cdr;
   recorder_.write(topic.handle, sample);
   node_.count_step(raw.source_ns);
+}
+
+/// Wall time at the start of the recording plus the time since then on the monotonic clock.
+std::int64_t LoggerNode::log_time_ns() const {
+  if (node_.clock().lockstep()) return node_.clock().stamp_ns();
+  return started_wall_ns_ + node::monotonic_ns() - started_ns_;
 }
 
 void LoggerNode::close() {

@@ -43,6 +43,7 @@ class LoggerNode {
   void discover();
   void take_all();
   void write(Topic& topic, const node::RawSample& sample);
+  std::int64_t log_time_ns() const;
   void close();
 
   node::Node& node_;
@@ -52,6 +53,7 @@ class LoggerNode {
   std::map<std::string, Topic> topics_;
   std::map<std::string, int>
       unrecordable_;  ///< topics whose type cannot be recorded; reported once
+  std::int64_t started_wall_ns_ = node::wall_ns(), started_ns_ = node::monotonic_ns();
   std::uint64_t missing_reported_ = 0;
   bool closed_ = false;
 };

@@ -7,6 +7,9 @@
 namespace capture {
 namespace {
 
+/// Chosen: longest interval of images, in periods, over which a motion is predicted.
+constexpr double max_interval_periods = 10;
+
 std::array<sim::cameras::Camera, 2> cameras_of(const MotionCapture::Params& params) {
   if (params.view.cameras.size() != 2)
     throw std::invalid_argument(
@@ -26,6 +29,7 @@ MotionCapture::MotionCapture(const Params& params, const erp::Robot& robot, node
                cameras_of(params), params.options),
       joints_out_(node.advertise<erp::JointState>()),
       bodies_out_(node.advertise<erp::BodyPose>()),
+      interval_(max_interval_periods * params.image_params.period_s),
       image_source_(params.image_params, params.view, params.place.file, robot, node,
                     [this](const auto& pair, std::uint64_t sequence, std::int64_t stamp_ns) {
                       on_images(pair, sequence, stamp_ns);
@@ -33,9 +37,9 @@ MotionCapture::MotionCapture(const Params& params, const erp::Robot& robot, node
 
 void MotionCapture::on_images(const images::ImageSource::Frame& pair, std::uint64_t sequence,
                               std::int64_t stamp_ns) {
-  const double dt_s = last_stamp_ns_ ? 1e-9 * static_cast<double>(stamp_ns - *last_stamp_ns_)
-                                     : params_.image_params.period_s;
-  last_stamp_ns_ = stamp_ns;
+  const double dt_s = is_first_ ? params_.image_params.period_s
+                                : interval_.add_s(stamp_ns, node_.clock().elapsed_ns());
+  is_first_ = false;
   const auto captured = capture_.process(pair[0], pair[1], dt_s);
   report_change();
   if (captured) publish(*captured, sequence, stamp_ns);

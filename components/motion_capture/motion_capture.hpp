@@ -49,8 +49,8 @@ class MotionCapture {
   Capture capture_;
   node::Publisher<erp::JointState>& joints_out_;
   node::Publisher<erp::BodyPose>& bodies_out_;
-  std::optional<std::int64_t> last_stamp_ns_;
-  bool was_lost_ = true;
+  node::Interval interval_;
+  bool is_first_ = true, was_lost_ = true;
   images::ImageSource image_source_;  ///< last, because it uses the other members
 };
 

@@ -57,6 +57,15 @@ dds_entity_t check_security(dds_entity_t participant) {
                               "); write a new folder with erp security make");
 }
 
+using OwnedQos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
+
+OwnedQos qos_with(const Peer& self) {
+  OwnedQos qos(dds_create_qos(), dds_delete_qos);
+  const std::string data = to_user_data(self);
+  dds_qset_userdata(qos.get(), data.data(), data.size());
+  return qos;
+}
+
 /// These counters order memory for the thread sanitizer: writes before a listener is attached
 /// happen before its callback, and the callback happens before the deletion of its reader returns.
 /// DDS's own locks ensure this order too, but the sanitizer cannot observe them.
@@ -88,10 +97,14 @@ Entity join(const std::string& name) { return join(own_peer(name, "")); }
 Entity join(const Peer& self) {
   const dds_domainid_t id = domain_id();
   open_domain(id);
-  const std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)> qos(dds_create_qos(), dds_delete_qos);
-  const std::string data = to_user_data(self);
-  dds_qset_userdata(qos.get(), data.data(), data.size());
-  return {check_security(dds_create_participant(id, qos.get(), nullptr)), "join the bus"};
+  return {check_security(dds_create_participant(id, qos_with(self).get(), nullptr)),
+          "join the bus"};
+}
+
+void announce(const Entity& participant, const Peer& self) {
+  if (const auto rc = dds_set_qos(participant.id(), qos_with(self).get()); rc < 0)
+    throw std::runtime_error(std::string("announce ") + self.component + ": " +
+                             dds_strretcode(-rc));
 }
 
 Qos::Qos(int depth) : qos(dds_create_qos()) {

@@ -32,6 +32,8 @@ class Entity {
 /// Creates a participant whose user data contains `self`; other participants can read it.
 /// Without CYCLONEDDS_URI the bus is this machine's loopback; ERP_DOMAIN (0…230) separates graphs.
 Entity join(const Peer& self);
+/// Replaces the user data of a participant.
+void announce(const Entity& participant, const Peer& self);
 /// Joins as a tool that belongs to no robot.
 Entity join(const std::string& name);
 

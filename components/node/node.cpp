@@ -42,13 +42,13 @@ spdlog::level::level_enum level_of(erp::Severity severity) {
 
 }  // namespace
 
-Node::Node(Options options, std::string robot_name, Scheduling scheduling)
+Node::Node(Options options, std::string robot_name, Scheduling scheduling, const std::string& role)
     : options_(std::move(options)),
       scheduling_(scheduling),
       identity_{std::move(robot_name), options_.name, options_.priority},
       clock_(options_.time),
       signals_(prepare_process()),
-      self_(own_peer(options_.name, identity_.robot)),
+      self_(own_peer(options_.name, identity_.robot, role)),
       participant_(join_with_priority()),
       peers_(participant_, wake_, self_),
       polled_{{wake_.descriptor(), POLLIN, 0}, {signals_, POLLIN, 0}} {
@@ -88,6 +88,7 @@ void Node::watch(int descriptor, std::function<void()> callback) {
 void Node::set_lifecycle(erp::Lifecycle lifecycle) {
   lifecycle_ = lifecycle;
   active_ = lifecycle == erp::Lifecycle::active;
+  peers_.set_active(active_);
 }
 
 void Node::enter(erp::Lifecycle lifecycle) {
@@ -122,7 +123,7 @@ void Node::deactivate() {
 void Node::count_step(std::int64_t stamp_ns) {
   const auto now_ns = monotonic_ns();
   ++state_.steps;
-  age_.add_ns(clock_.now_ns() - stamp_ns);
+  age_.add_ns(clock_.stamp_ns() - stamp_ns);
   const auto interval_ns = now_ns - last_step_ns_;
   if (last_step_ns_ && last_interval_ns_) jitter_.add_ns(std::abs(interval_ns - last_interval_ns_));
   last_interval_ns_ = last_step_ns_ ? interval_ns : 0;
@@ -144,13 +145,13 @@ void Node::show(const std::string& name, double value) {
 
 void Node::report(erp::Severity severity, const std::string& subject, const std::string& code,
                   const std::string& text) {
-  const auto suppressed = throttle_.admit(subject + ' ' + code, clock_.now_ns());
+  const auto suppressed = throttle_.admit(subject + ' ' + code, clock_.elapsed_ns());
   if (!suppressed) return;
   const std::string message =
       *suppressed ? text + " (" + std::to_string(*suppressed) + " repeats suppressed)" : text;
   spdlog::log(level_of(severity), "{}{}{}: {}", subject, subject.empty() ? "" : " ", code, message);
   erp::Event event;
-  event.stamp_ns = clock_.now_ns();
+  event.stamp_ns = clock_.stamp_ns();
   event.severity = static_cast<std::uint8_t>(severity);
   erp::assign_shortened(event.subject, subject);
   erp::assign_shortened(event.code, code);
@@ -169,23 +170,29 @@ void Node::finish(int exit_code) {
 void Node::discover() {
   peers_.discover();
   state_.peers = peers_.count();
-  if (const auto& earlier = peers_.earlier_duplicate(); earlier && !finished_)
-    finish_as_duplicate_of(*earlier);
+  if (const auto& running = peers_.running_duplicate(); running && !finished_)
+    finish_as_duplicate_of(*running);
+  if (const auto& later = peers_.later_duplicate(); later && active())
+    report(erp::Severity::warning, later->component, "duplicate",
+           "pid " + std::to_string(later->pid) + " on " + later->host +
+               " also claims to be the robot's " + self_.role + "; this process continues");
 }
 
-void Node::finish_as_duplicate_of(const Peer& earlier) {
-  // Not published as an event, because the event would name the earlier process as its source.
+void Node::finish_as_duplicate_of(const Peer& running) {
+  const bool has_our_name = running.component == identity_.component;
+  // Not published as an event, because the event would name the running process as its source.
   spdlog::error(
-      "pid {} on {} already runs as \"{}\" of robot \"{}\"; end it, choose another --name, or "
-      "set ERP_DOMAIN to an unused number",
-      earlier.pid, earlier.host, identity_.component, identity_.robot);
+      "pid {} on {} already runs as {} \"{}\" of robot \"{}\"; end it{}, or set ERP_DOMAIN to an "
+      "unused number",
+      running.pid, running.host, has_our_name ? "component" : self_.role, running.component,
+      identity_.robot, self_.role == identity_.component ? ", choose another --name" : "");
   finish(2);
 }
 
 void Node::heartbeat() {
   const auto now_ns = monotonic_ns();
   state_.lifecycle = static_cast<std::uint8_t>(lifecycle_);
-  state_.stamp_ns = clock_.now_ns();
+  state_.stamp_ns = clock_.stamp_ns();
   state_.links = 0, state_.missed = 0;
   for (const auto& port : ports_) state_.links += port->matched(), state_.missed += port->missed();
   discover();

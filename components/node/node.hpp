@@ -35,7 +35,9 @@ class Node {
   /// control loop.
   enum class Scheduling { normal, real_time };
 
-  Node(Options options, std::string robot_name, Scheduling scheduling = Scheduling::real_time);
+  /// `role`: see Peer; default: the component's name.
+  Node(Options options, std::string robot_name, Scheduling scheduling = Scheduling::real_time,
+       const std::string& role = "");
   ~Node();
   Node(const Node&) = delete;
   Node& operator=(const Node&) = delete;
@@ -77,7 +79,7 @@ class Node {
   /// Ends `spin` after the current handler; no other handler starts.
   void finish(int exit_code = 0);
   /// Runs until `finish`, SIGINT or SIGTERM. Returns the exit code of the process: 0; 1 when a
-  /// handler threw; 2 when a process with the same component name and robot joined the bus earlier,
+  /// handler threw; 2 when another process already has the component's name or role for this robot,
   /// because both would send commands.
   int spin();
 
@@ -110,7 +112,7 @@ class Node {
   void serve();
   void heartbeat();
   void discover();
-  void finish_as_duplicate_of(const Peer& earlier);
+  void finish_as_duplicate_of(const Peer& running);
 
   Options options_;
   Scheduling scheduling_;

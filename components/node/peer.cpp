@@ -27,14 +27,15 @@ bool runs(pid_t pid) {
 
 }  // namespace
 
-Peer own_peer(const std::string& component, const std::string& robot) {
-  return {component, robot, own_host(), getpid(), wall_ns()};
+Peer own_peer(const std::string& component, const std::string& robot, const std::string& role) {
+  return {component, robot, role.empty() ? component : role, own_host(), getpid(), wall_ns()};
 }
 
 std::string to_user_data(const Peer& peer) {
   std::ostringstream text;
-  text << "component=" << peer.component << ";robot=" << peer.robot << ";host=" << peer.host
-       << ";pid=" << peer.pid << ";joined_ns=" << peer.joined_ns << ';';
+  text << "component=" << peer.component << ";robot=" << peer.robot << ";role=" << peer.role
+       << ";host=" << peer.host << ";pid=" << peer.pid << ";joined_ns=" << peer.joined_ns
+       << ";active=" << peer.active << ';';
   return text.str();
 }
 
@@ -48,10 +49,13 @@ Peer parse_peer(const std::string& user_data) {
     const std::string key = pair.substr(0, equals), value = pair.substr(equals + 1);
     if (key == "component") peer.component = value;
     else if (key == "robot") peer.robot = value;
+    else if (key == "role") peer.role = value;
+    else if (key == "active") peer.active = value == "1";
     else if (key == "host") peer.host = value;
     else if (key == "pid") peer.pid = static_cast<pid_t>(std::strtol(value.c_str(), nullptr, 10));
     else if (key == "joined_ns") peer.joined_ns = std::strtoll(value.c_str(), nullptr, 10);
   }
+  if (peer.role.empty()) peer.role = peer.component;
   return peer;
 }
 

@@ -25,6 +25,7 @@ std::int64_t discovery_ns() {
 
 Peers::Peers(const Entity& participant, Wake& wake, Peer self)
     : self_(std::move(self)),
+      participant_(participant),
       callback_(wake_callback(wake)),
       reader_(make_builtin_reader(participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, callback_)) {
   dds_get_guid(participant.id(), &own_key_);
@@ -52,10 +53,17 @@ bool Peers::is_authenticated(const dds_guid_t& participant) const {
                              [&](const auto& key) { return same_guid(key, participant); });
 }
 
+void Peers::set_active(bool active) {
+  if (self_.active == active) return;
+  self_.active = active;
+  announce(participant_, self_);
+}
+
 void Peers::discover() {
   update_authenticated();
   count_ = 0;
-  earlier_duplicate_.reset();
+  running_duplicate_.reset();
+  later_duplicate_.reset();
   others_.clear();
   for_each_alive<dds_builtintopic_participant_t>(reader_, [&](const auto& sample, const auto&) {
     if (same_guid(sample.key, own_key_)) return;
@@ -64,7 +72,8 @@ void Peers::discover() {
     const Peer peer = parse_peer(user_data(sample.qos));
     if (!may_be_alive(peer)) return;
     if (peer.pid != self_.pid || peer.host != self_.host) others_.push_back(peer);
-    if (are_duplicates(peer, self_) && joined_before(peer, self_)) earlier_duplicate_ = peer;
+    if (are_duplicates(peer, self_))
+      (yields_to(self_, peer) ? running_duplicate_ : later_duplicate_) = peer;
   });
 }
 

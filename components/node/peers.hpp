@@ -13,15 +13,19 @@ namespace node {
 std::int64_t discovery_ns();
 
 /// The other participants on the bus. With DDS Security, only authenticated participants: any
-/// process can announce itself as the plant with an earlier joining time.
+/// process can announce itself as an active plant.
 class Peers {
  public:
   Peers(const Entity& participant, Wake& wake, Peer self);
 
   /// Number of participants at the last `discover`, without this one.
   std::uint32_t count() const { return count_; }
-  /// A peer with our component name and robot that joined before us. Both would send commands.
-  const std::optional<Peer>& earlier_duplicate() const { return earlier_duplicate_; }
+  /// A peer with our name or role and our robot to which we yield, because both would send commands.
+  const std::optional<Peer>& running_duplicate() const { return running_duplicate_; }
+  /// A peer with our name or role and our robot that must yield to us.
+  const std::optional<Peer>& later_duplicate() const { return later_duplicate_; }
+  /// Announces whether this process takes part in the control of the robot.
+  void set_active(bool active);
   /// The peers in other processes that may be alive.
   const std::vector<Peer>& others() const { return others_; }
   /// Reads the current participants from DDS.
@@ -32,6 +36,7 @@ class Peers {
   bool is_authenticated(const dds_guid_t& participant) const;
 
   Peer self_;
+  const Entity& participant_;
   DataCallback callback_;
   dds_guid_t own_key_{};
   Entity reader_;
@@ -39,7 +44,7 @@ class Peers {
   std::vector<dds_guid_t> authenticated_;
   std::uint32_t count_ = 0;
   std::vector<Peer> others_;
-  std::optional<Peer> earlier_duplicate_;
+  std::optional<Peer> running_duplicate_, later_duplicate_;
 };
 
 }  // namespace node

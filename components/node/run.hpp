@@ -21,6 +21,7 @@
 ///   asynchronous_joint_state          joint_state is not one per frame; do not wait for it
 ///   in_background                     run at normal priority: the component is not in the control
 ///                                     loop. All others use real-time priority if permitted.
+///   static const char* role(const Params&)   the robot has one component of this role (peer.hpp)
 /// A constructor (Params, const erp::Robot&, node::Node&) gives access to the node, for additional
 /// ports. A class with this constructor and without `step` makes all of its ports itself.
 namespace node {
@@ -76,7 +77,7 @@ class Stepper {
     if (latest.received) latest.period_ns = message.stamp_ns - latest.message.stamp_ns;
     latest.message = message;
     latest.received = true;
-    latest.arrived_ns = node_.clock().lockstep() ? message.stamp_ns : wall_ns();
+    latest.arrived_ns = node_.clock().lockstep() ? message.stamp_ns : monotonic_ns();
     try_step();
   }
 
@@ -109,13 +110,11 @@ class Stepper {
       return;
     is_pending_ = false;
     node_.clock().advance(pending_.stamp_ns);
-    [[maybe_unused]] const auto now_ns = node_.clock().now_ns();
+    const auto now_ns = node_.clock().elapsed_ns();
     ((std::get<Latest<More>>(more_).age_s =
           1e-9 * static_cast<double>(now_ns - std::get<Latest<More>>(more_).arrived_ns)),
      ...);
-    const double dt_s =
-        last_stamp_ns_ ? 1e-9 * static_cast<double>(pending_.stamp_ns - *last_stamp_ns_) : 0.0;
-    last_stamp_ns_ = pending_.stamp_ns;
+    const double dt_s = interval_.add_s(pending_.stamp_ns, now_ns);
     publish((component_.*step_)(pending_, dt_s, std::get<Latest<More>>(more_)...));
     node_.count_step(pending_.stamp_ns);
   }
@@ -133,7 +132,7 @@ class Stepper {
   void send(OutMessage& message) {
     constexpr bool uses_frame_stamp =
         std::same_as<OutMessage, erp::JointState> || std::same_as<OutMessage, erp::JointTarget>;
-    message.stamp_ns = uses_frame_stamp ? pending_.stamp_ns : node_.clock().now_ns();
+    message.stamp_ns = uses_frame_stamp ? pending_.stamp_ns : node_.clock().stamp_ns();
     if constexpr (requires { message.answers; }) message.answers = pending_.sequence;
     if constexpr (std::same_as<OutMessage, erp::JointState>) {
       message.sequence = pending_.sequence;  // of the frame that it describes
@@ -152,7 +151,7 @@ class Stepper {
   In pending_;
   bool is_pending_ = false;
   std::int64_t pending_since_ns_ = 0;
-  std::optional<std::int64_t> last_stamp_ns_;
+  Interval interval_;
 };
 
 template <class T, class Out, class In, class... More>
@@ -177,12 +176,19 @@ void check(const Options& options) {
 }
 
 template <class T>
+std::string role_of(const typename T::Params& params) {
+  if constexpr (requires { T::role(params); }) return T::role(params);
+  else return "";
+}
+
+template <class T>
 int run_component(const Options& options) {
   const auto params = read_params<typename T::Params>(options);
   const erp::Robot robot = erp::read_robot(options.robot);
   constexpr bool in_control_loop = !requires { T::in_background; };
   Node node(options, robot.name,
-            in_control_loop ? Node::Scheduling::real_time : Node::Scheduling::normal);
+            in_control_loop ? Node::Scheduling::real_time : Node::Scheduling::normal,
+            role_of<T>(params));
   T component = [&] {
     if constexpr (std::constructible_from<T, typename T::Params, const erp::Robot&, Node&>)
       return T(params, robot, node);

@@ -5,6 +5,7 @@
 #include <openssl/pem.h>
 #include <openssl/x509.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -42,6 +43,20 @@ void check_files(const fs::path& folder) {
     if (!fs::exists(file)) refuse(file, "is missing", remake_folder);
     if (!std::ifstream(file)) refuse(file, "cannot be read", "run as its owner");
   }
+}
+
+/// Anyone who can write to the folder, or owns it, can replace its keys and documents.
+void check_folder(const fs::path& folder) {
+  struct stat status {};
+  if (stat(folder.c_str(), &status) != 0) return;  // check_files reports it
+  if (status.st_uid != geteuid() && status.st_uid != 0)
+    refuse(folder, "belongs to another user, number " + std::to_string(status.st_uid),
+           "run as that user, or give it to this one: chown -R " + std::to_string(geteuid()) + " " +
+               folder.string());
+  if (!(status.st_mode & 022)) return;
+  std::ostringstream mode;
+  mode << "can be changed by other users, mode 0" << std::oct << (status.st_mode & 0777);
+  refuse(folder, mode.str(), "chmod 700 " + folder.string());
 }
 
 /// Anyone who can read a key can impersonate its owner.
@@ -123,6 +138,7 @@ std::string security_config() {
   const fs::path folder = security_folder();
   if (folder.empty()) return "";
   check_files(folder);
+  check_folder(folder);
   for (const auto* key : {Files::identity_key, Files::authority_key})
     check_key_permissions(folder / key);
   check_certificates(folder);

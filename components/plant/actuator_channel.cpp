@@ -32,7 +32,9 @@ ActuatorChannel::ActuatorChannel(const erp::Actuator& actuator, const erp::Motor
       max_line_speed_m_per_s_(actuator.max_line_speed_m_per_s.value_or(RateLimiter::unlimited)),
       max_tension_rate_N_per_s_(actuator.max_tension_rate_N_per_s.value_or(RateLimiter::unlimited)),
       tendon_monitor_(watch),
-      slack_N_(watch.slack_N) {}
+      slack_N_(watch.slack_N) {
+  reason_.reserve(96);  // of actuator_owner; no allocation while controlling
+}
 
 Checked ActuatorChannel::receive(std::string_view controller, std::int32_t priority, erp::Mode mode,
                                  double reference, std::int64_t now_ns, std::int64_t stale_ns) {

@@ -64,6 +64,14 @@ class ActuatorChannel {
   /// Receives a controller's command. The reason is empty when it was accepted unchanged.
   Checked receive(std::string_view controller, std::int32_t priority, erp::Mode mode,
                   double reference, std::int64_t now_ns, std::int64_t stale_ns);
+  /// Counts refused gains, with the reason.
+  void refuse_gains(std::string_view reason) { ++refused_gains_, reason_ = reason; }
+  /// A controller gives up the actuator (interfaces/emergency.hpp).
+  void release(std::string_view controller, std::int32_t priority) {
+    arbiter_.release(controller, priority);
+  }
+  /// True while an emergency off is latched.
+  bool is_emergency_off() const { return arbiter_.is_emergency_off(); }
   /// Stores the reported state of the ECU.
   void observe(ecu_state state, std::uint8_t fault, std::int32_t encoder_counts, double tension_N,
                std::int64_t now_ns);
@@ -75,12 +83,17 @@ class ActuatorChannel {
                 bool limb_degraded = false);
 
   std::string_view owner() const { return arbiter_.owner(); }
+  /// False while another controller of at least this priority is the owner.
+  bool may_command(std::string_view controller, std::int32_t priority) const {
+    return !arbiter_.outranked(controller, priority);
+  }
   std::int32_t priority() const { return priority_; }
   /// The active safe action; none while the owner's commands are followed or the ECU is off.
   erp::SafeAction safe_action() const { return active_safe_action_; }
   TendonState tendon() const { return tendon_monitor_.state(); }
   std::uint32_t limited() const { return limited_; }
   std::uint32_t refused() const { return refused_; }
+  std::uint32_t refused_gains() const { return refused_gains_; }
   std::string_view reason() const { return reason_; }
 
  private:
@@ -113,7 +126,8 @@ class ActuatorChannel {
   erp::SafeAction active_safe_action_ = erp::SafeAction::none;
   std::int32_t priority_ = 0;
   std::uint32_t limited_ = 0, refused_ = 0;
-  std::string_view reason_;
+  std::uint32_t refused_gains_ = 0;
+  std::string reason_;
 };
 
 }  // namespace plant

@@ -4,49 +4,60 @@
 
 namespace plant {
 
-ControllerCommand* Arbiter::find(std::string_view controller) {
-  const auto end = commands_.begin() + static_cast<std::ptrdiff_t>(count_);
-  const auto it = std::find_if(commands_.begin(), end, [&](const ControllerCommand& command) {
-    return controller == command.controller;
-  });
-  return it == end ? nullptr : &*it;
+std::optional<std::size_t> Arbiter::find(std::string_view controller) const {
+  for (std::size_t i = 0; i < commands_.size(); ++i)
+    if (commands_[i].in_use && controller == commands_[i].controller) return i;
+  return std::nullopt;
+}
+
+/// A free or stale place, else the one of lowest rank if `by` has a higher one.
+std::optional<std::size_t> Arbiter::replaceable(const ControllerCommand& by,
+                                                std::int64_t stale_ns) const {
+  std::optional<std::size_t> lowest;
+  for (std::size_t i = 0; i < commands_.size(); ++i) {
+    const ControllerCommand& command = commands_[i];
+    if (command.is_stale(by.received_ns, stale_ns)) return i;
+    const bool is_kept = owner_ == i && command.priority >= by.priority;
+    if (!is_kept && (!lowest || command.rank() < commands_[*lowest].rank())) lowest = i;
+  }
+  if (lowest && commands_[*lowest].rank() >= by.rank()) lowest.reset();
+  return lowest;
 }
 
 bool Arbiter::update(std::string_view controller, std::int32_t priority, erp::Mode mode,
                      double reference, std::int64_t now_ns, std::int64_t stale_ns) {
-  ControllerCommand* slot = find(controller);
-  if (!slot && count_ < max_controllers) slot = &commands_[count_++];
-  if (!slot) {
-    const auto stale =
-        std::find_if(commands_.begin(), commands_.end(), [&](const ControllerCommand& command) {
-          return now_ns - command.received_ns > stale_ns && owner() != command.controller;
-        });
-    if (stale == commands_.end()) return false;
-    slot = &*stale;
+  ControllerCommand command{"", priority, mode, reference, now_ns, true};
+  const auto size = std::min(controller.size(), sizeof command.controller - 1);
+  std::copy_n(controller.data(), size, command.controller);
+  auto place = find(command.controller);
+  if (place && commands_[*place].is_emergency() && !command.is_emergency()) return false;
+  if (!place) {
+    place = replaceable(command, stale_ns);
+    if (!place) return false;
+    if (place == owner_) owner_.reset();
   }
-  const auto size = std::min(controller.size(), sizeof slot->controller - 1);
-  std::copy_n(controller.data(), size, slot->controller);
-  slot->controller[size] = '\0';
-  slot->priority = priority;
-  slot->mode = mode;
-  slot->reference = reference;
-  slot->received_ns = now_ns;
+  commands_[*place] = command;
   return true;
 }
 
+void Arbiter::release(std::string_view controller, std::int32_t priority) {
+  const bool releases_emergency = priority == erp::emergency_priority;
+  for (ControllerCommand& command : commands_)
+    if (controller == command.controller || (releases_emergency && command.is_emergency()))
+      command.in_use = false;
+}
+
 const ControllerCommand* Arbiter::winner(std::int64_t now_ns, std::int64_t stale_ns) {
-  int winner_index = -1;
-  for (int i = 0; slot(i) < count_; ++i) {
-    const ControllerCommand& command = commands_[slot(i)];
-    if (now_ns - command.received_ns > stale_ns) continue;
-    const bool is_first = winner_index < 0;
-    const auto best_priority = is_first ? 0 : commands_[slot(winner_index)].priority;
-    if (is_first || command.priority > best_priority ||
-        (command.priority == best_priority && i == owner_))
-      winner_index = i;
+  std::optional<std::size_t> winner;
+  for (std::size_t i = 0; i < commands_.size(); ++i) {
+    ControllerCommand& command = commands_[i];
+    if (command.is_stale(now_ns, stale_ns)) command.in_use = false;
+    if (!command.in_use) continue;
+    const bool is_higher = !winner || command.priority > commands_[*winner].priority;
+    if (is_higher || (command.priority == commands_[*winner].priority && owner_ == i)) winner = i;
   }
-  owner_ = winner_index;
-  return winner_index < 0 ? nullptr : &commands_[slot(winner_index)];
+  owner_ = winner;
+  return winner ? &commands_[*winner] : nullptr;
 }
 
 }  // namespace plant

@@ -1,8 +1,11 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string_view>
+#include <tuple>
 
+#include "interfaces/emergency.hpp"
 #include "interfaces/values.hpp"
 
 /// Selects the owner of one actuator: of the controllers whose last command is not stale, the one
@@ -16,29 +19,47 @@ struct ControllerCommand {
   erp::Mode mode = erp::Mode::off;
   double reference = 0;
   std::int64_t received_ns = 0;
+  bool in_use = false;
+
+  /// An emergency off is latched: it never becomes stale.
+  bool is_emergency() const {
+    return in_use && priority == erp::emergency_priority && mode == erp::Mode::off;
+  }
+  /// A command from the future is stale: the clock has begun again.
+  bool is_stale(std::int64_t now_ns, std::int64_t stale_ns) const {
+    return !is_emergency() && (!in_use || received_ns > now_ns || now_ns - received_ns > stale_ns);
+  }
+  /// Order in which commands keep their place in a full table.
+  auto rank() const { return std::tuple(priority, mode == erp::Mode::off); }
 };
 
 class Arbiter {
  public:
   static constexpr std::size_t max_controllers = 8;  // chosen
 
-  /// Stores the command of a controller. False if `max_controllers` other commands are not stale.
+  /// Stores the command of a controller. In a full table it replaces the command of lowest priority
+  /// if its own is higher, or equal and of mode off; but never a command of the owner of the same
+  /// priority. False if the command was not stored.
   bool update(std::string_view controller, std::int32_t priority, erp::Mode mode, double reference,
               std::int64_t now_ns, std::int64_t stale_ns);
-  /// Selects the owner and returns its command; nullptr when all commands are stale.
+  /// Forgets the commands of a controller; with the emergency priority, also every emergency off.
+  void release(std::string_view controller, std::int32_t priority);
+  /// Forgets all stale commands, selects the owner and returns its command; nullptr if there is
+  /// none.
   const ControllerCommand* winner(std::int64_t now_ns, std::int64_t stale_ns);
-  std::string_view owner() const { return owner_ < 0 ? "" : commands_[slot(owner_)].controller; }
+  /// True if the last winner is an emergency off.
+  bool is_emergency_off() const { return owner_ && commands_[*owner_].is_emergency(); }
+  std::string_view owner() const { return owner_ ? commands_[*owner_].controller : ""; }
   /// True when another controller is the owner and has at least this priority.
   bool outranked(std::string_view controller, std::int32_t priority) const {
-    return owner_ >= 0 && owner() != controller && commands_[slot(owner_)].priority >= priority;
+    return owner_ && owner() != controller && commands_[*owner_].priority >= priority;
   }
 
  private:
-  static std::size_t slot(int index) { return static_cast<std::size_t>(index); }
-  ControllerCommand* find(std::string_view controller);
+  std::optional<std::size_t> find(std::string_view controller) const;
+  std::optional<std::size_t> replaceable(const ControllerCommand& by, std::int64_t stale_ns) const;
   std::array<ControllerCommand, max_controllers> commands_{};
-  std::size_t count_ = 0;
-  int owner_ = -1;  ///< index into commands_; −1: no owner
+  std::optional<std::size_t> owner_;  ///< index into commands_
 };
 
 }  // namespace plant

@@ -32,6 +32,9 @@ Notice merge(const std::vector<Notice>& group, std::size_t actuators) {
 }
 
 std::string owner_text(const ActuatorChannel& channel, const std::string& previous_owner) {
+  if (channel.is_emergency_off())
+    return "emergency off by " + std::string(channel.owner()) +
+           "; release it with: erp stop --release";
   if (!channel.owner().empty()) return "driven by " + std::string(channel.owner());
   switch (channel.safe_action()) {
     case erp::SafeAction::hold:
@@ -100,9 +103,13 @@ void Plant::notice_changes() {
     const ActuatorChannel& channel = channels_[i];
     Reported& reported = reported_[i];
     if (reported.owner != channel.owner()) {
-      const bool lost = channel.owner().empty();
-      notices_.push_back({lost ? erp::Severity::warning : erp::Severity::info, channel.name(),
-                          lost ? "stale_command" : "owner", owner_text(channel, reported.owner)});
+      const bool lost = channel.owner().empty(), emergency = channel.is_emergency_off();
+      notices_.push_back({lost || emergency ? erp::Severity::warning : erp::Severity::info,
+                          channel.name(),
+                          emergency ? "emergency_off"
+                          : lost    ? "stale_command"
+                                    : "owner",
+                          owner_text(channel, reported.owner)});
       reported.owner = channel.owner();
     }
     if (channel.state() != reported.state && channel.state() == ECU_STATE_FAULT)
@@ -131,7 +138,7 @@ const erp::ActuatorOwner& Plant::owners() {
     sample.priority = channel.priority();
     sample.safe_action = static_cast<std::uint8_t>(channel.safe_action());
     sample.limited = channel.limited();
-    sample.refused = channel.refused();
+    sample.refused = channel.refused() + channel.refused_gains();
     erp::assign_shortened(sample.reason, channel.reason());
   }
   return owner_message_;

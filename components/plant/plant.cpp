@@ -9,6 +9,8 @@ namespace {
 
 constexpr double slack_sigmas =
     6;  // chosen: so that noise does not make a slack tendon appear taut
+/// Longest interval over which a rate limit is applied; chosen: ECUs are silent for less than 50 ms.
+constexpr double max_interval_s = 0.05;
 
 TendonMonitor::Params tendon_params(const erp::SensorType& sensors, const Plant::Params& params) {
   return {std::max(params.slack_N, slack_sigmas * sensors.tension_noise_N), params.take_up_m};
@@ -20,7 +22,7 @@ Plant::Plant(const Params& params, const erp::Robot& robot)
     : stale_ns_(std::llround(1e9 * params.stale_s)),
       device_lost_ns_(std::llround(1e9 * params.device_lost_s)),
       limb_monitor_(robot, device_lost_ns_),
-      is_booting_(robot.actuators.size(), false),
+      boot_since_ns_(robot.actuators.size(), 0),
       reported_(robot.actuators.size()) {
   for (auto& ecu : channel_at_) ecu.fill(-1);
   for (auto& ecu : analog_at_) ecu.fill(-1);
@@ -30,6 +32,9 @@ Plant::Plant(const Params& params, const erp::Robot& robot)
                [static_cast<std::size_t>(actuator.channel)] = static_cast<int>(channels_.size());
     channels_.emplace_back(actuator, robot.motor_of(actuator), robot.sensors_of(actuator),
                            tendon_params(robot.sensors_of(actuator), params));
+    gains_.emplace_back(static_cast<std::uint8_t>(actuator.ecu),
+                        static_cast<std::uint8_t>(actuator.channel),
+                        sim::design_parameters(robot, actuator, {}));
     erp::ActuatorSample sample{};
     erp::assign(sample.name, actuator.name);
     sample.ecu_state = static_cast<std::uint8_t>(erp::EcuState::unknown);
@@ -73,9 +78,9 @@ void Plant::sense_channel(const erp::EcuChannelSample& counts, std::int64_t now_
   ActuatorChannel& channel = channels_[i];
   auto& sample = frame_.actuators._buffer[i];
   sample.valid = counts.fresh ? erp::valid::all : 0;
-  is_booting_[i] = counts.fresh && counts.state == ECU_STATE_BOOT;
   if (!counts.fresh) return;
-  limb_monitor_.on_sample(i, now_ns);
+  observe_gains(i, counts, now_ns);
+  if (!reported_[i].stays_in_boot) limb_monitor_.on_sample(i, now_ns);
   const sim::EcuUnits& units = channel.units();
   channel.observe(static_cast<ecu_state>(counts.state), counts.fault, counts.encoder_counts,
                   units.tension_N(counts.tension_counts), now_ns);
@@ -122,7 +127,9 @@ void Plant::receive(const erp::ActuatorCommand& command, std::int64_t now_ns) {
     ActuatorChannel* addressed = nullptr;
     for (auto& channel : channels_)
       if (channel.name() == reference.name) addressed = &channel;
-    if (addressed)
+    if (addressed && reference.mode == erp::release_mode)
+      addressed->release(command.controller, command.priority);
+    else if (addressed)
       addressed->receive(command.controller, command.priority,
                          static_cast<erp::Mode>(reference.mode), reference.reference, now_ns,
                          stale_ns_);
@@ -131,7 +138,7 @@ void Plant::receive(const erp::ActuatorCommand& command, std::int64_t now_ns) {
 }
 
 void Plant::report_unknown(const std::string& controller, const std::string& name) {
-  if (!reported_unknown_.insert(controller + " " + name).second) return;
+  if (!unknown_.is_new(controller + " " + name)) return;
   std::string actuator_names;
   for (const auto& channel : channels_)
     actuator_names += (actuator_names.empty() ? "" : ", ") + channel.name();
@@ -140,8 +147,9 @@ void Plant::report_unknown(const std::string& controller, const std::string& nam
 }
 
 const erp::EcuCommand& Plant::command(std::int64_t now_ns) {
-  const double dt_s =
+  const double interval_s =
       last_decision_ns_ ? 1e-9 * static_cast<double>(now_ns - last_decision_ns_) : 0;
+  const double dt_s = std::clamp(interval_s, 0.0, max_interval_s);
   last_decision_ns_ = now_ns;
   limb_monitor_.update(now_ns);
   for (std::size_t i = 0; i < channels_.size(); ++i) {
@@ -151,7 +159,6 @@ const erp::EcuCommand& Plant::command(std::int64_t now_ns) {
     channel.request = static_cast<std::uint8_t>(demand.request);
     channel.setpoint = demand.setpoint;
   }
-  command_.stamp_ns = now_ns;
   command_.answers = frame_.sequence;
   notice_changes();
   return command_;

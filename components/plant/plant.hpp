@@ -1,13 +1,14 @@
 #pragma once
 #include <array>
 #include <cstdint>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "components/plant/actuator_channel.hpp"
+#include "components/plant/channel_gains.hpp"
 #include "components/plant/limb_monitor.hpp"
+#include "components/plant/reported_once.hpp"
 #include "interfaces/topics.hpp"
 
 /// The robot-independent layer between controllers and any device: units, limits, arbitration by
@@ -57,11 +58,15 @@ class Plant {
   /// Converts ECU counts to SI, in the order of robot.xml. Copies stamp and sequence of the frame.
   const erp::SensorFrame& sense(const erp::EcuFrame& frame, std::int64_t now_ns);
   void receive(const erp::ActuatorCommand& command, std::int64_t now_ns);
-  /// Arbitrates and converts to ECU requests; answers the last frame. Call at least once per frame.
+  /// Arbitrates and converts to ECU requests; answers the last frame, without a stamp. Call at least
+  /// once per frame.
   const erp::EcuCommand& command(std::int64_t now_ns);
   const erp::ActuatorOwner& owners();
-  /// True if the actuator's ECU channel reports state boot and therefore needs its gains.
-  bool waits_for_gains(std::size_t actuator) const { return is_booting_[actuator]; }
+  /// A controller may change gains of the actuators that it may command.
+  void receive(const erp::GainCommand& command);
+  /// The next proposed gains; with `load`, also all gains of the channels that report state boot.
+  /// Without a stamp; often empty.
+  const erp::EcuParameter& gains(std::int64_t now_ns, bool load);
   /// Marks all measurements invalid if the device is silent for too long. True on this transition.
   bool check_device(std::int64_t now_ns);
   /// The notices since the last call; equal notices of several actuators are merged.
@@ -76,6 +81,7 @@ class Plant {
     TendonState tendon = TendonState::taut;
     bool slack = false;                   ///< reported once per run
     bool lost = false, degraded = false;  ///< of the actuator, of its limb
+    bool stays_in_boot = false;
     std::uint32_t limited = 0, refused = 0;
   };
 
@@ -84,6 +90,9 @@ class Plant {
   void add_analogs(const erp::Robot& robot);
   void sense_analog(const erp::EcuAnalogSample& counts);
   void report_unknown(const std::string& controller, const std::string& name);
+  void observe_gains(std::size_t actuator, const erp::EcuChannelSample& counts,
+                     std::int64_t now_ns);
+  void propose(const erp::GainCommand& command, const erp::GainValue& gain);
   void notice_changes();
   void notice_tendon(const ActuatorChannel& channel, Reported& reported);
   void notice_limb(std::size_t actuator);
@@ -102,7 +111,9 @@ class Plant {
   std::array<std::array<int, channels_per_ecu>, ecus>
       channel_at_;  ///< [ecu][channel] → index or −1
   std::array<std::array<int, analogs_per_ecu>, ecus> analog_at_;  ///< [ecu][input] → index or −1
-  std::vector<bool> is_booting_;
+  std::vector<ChannelGains> gains_;                               ///< one per actuator
+  std::vector<std::int64_t> boot_since_ns_;                       ///< 0: not in state boot
+  erp::EcuParameter parameters_;
   std::vector<Reported> reported_;
   erp::SensorFrame frame_;
   erp::EcuCommand command_;
@@ -110,7 +121,7 @@ class Plant {
   std::int64_t last_frame_ns_ = 0, last_decision_ns_ = 0;
   bool device_alive_ = false;
   std::vector<Notice> notices_;
-  std::set<std::string> reported_unknown_;  ///< controller and actuator: reported once
+  ReportedOnce unknown_, refused_gains_;
 };
 
 }  // namespace plant

@@ -1,5 +1,4 @@
 #pragma once
-#include <set>
 #include <string>
 #include <vector>
 
@@ -17,17 +16,16 @@ namespace plant {
 class PlantNode {
  public:
   using Params = Plant::Params;
+  static const char* role(const Params&) { return node::plant_role; }
   PlantNode(const Params& params, const erp::Robot& robot, node::Node& node);
 
  private:
   void on_frame(const erp::EcuFrame& frame);
   void on_command(const erp::ActuatorCommand& command);
-  void on_gains(const erp::GainCommand& command);
   bool all_answered() const;
   void answer();
   void repeat_answer();
-  void report_refused_gain(const erp::GainValue& gain);
-  void send_gains();
+  void send_gains(bool load);
   void report_notices();
   void publish_owners();
 
@@ -38,15 +36,12 @@ class PlantNode {
 
   node::Node& node_;
   Plant plant_;
-  std::vector<std::string> names_;
-  std::vector<std::vector<erp::EcuParameterValue>> gains_;  ///< one list per actuator
   node::Publisher<erp::SensorFrame>& sensor_out_;
   node::Publisher<erp::EcuCommand>& ecu_out_;
   node::Publisher<erp::EcuParameter>& parameter_out_;
   node::Publisher<erp::ActuatorOwner>& owner_out_;
   node::Subscription<erp::ActuatorCommand>* command_in_;
   std::vector<Answer> answers_;
-  std::set<std::string> refused_gains_;  ///< reported once
   std::uint64_t current_frame_ = 0, frame_count_ = 0;
   bool frame_received_ = false, answer_pending_ = false;
   std::int64_t pending_since_ns_ = 0;

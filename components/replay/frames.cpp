@@ -35,6 +35,8 @@ erp::EcuChannelSample channel_of(const recording::Members& m) {
   channel.duty_counts = number<std::int16_t>(m, "duty_counts");
   channel.current_counts = number<std::int16_t>(m, "current_counts");
   channel.tension_counts = number<std::uint16_t>(m, "tension_counts");
+  channel.gain_sets_accepted = number<std::uint8_t>(m, "gain_sets_accepted");
+  channel.gain_sets_refused = number<std::uint8_t>(m, "gain_sets_refused");
   return channel;
 }
 
@@ -53,14 +55,18 @@ Frames::Frames(const std::string& file) {
   if (file.empty())
     throw std::invalid_argument("replay: the recording is missing; give --set file=RECORDING.mcap");
   const recording::McapReader reader(file);
-  reader.for_each([&](const recording::Message& message) {
+  const auto add = [&](const recording::Message& message) {
     if (message.channel.topic != erp::Topic<erp::EcuFrame>::name) return;
     if (messages_.empty()) {
       const auto& schema = reader.schemas().at(message.channel.schema_id);
       type_ = recording::parse_ros2msg(schema.name, schema.data);
     }
     messages_.emplace_back(message.data.begin(), message.data.end());
-  });
+    const auto header = recording::header_of(type_, message.data);
+    times_ns_.push_back(
+        times_.add(header.stamp_ns.value_or(0), header.sequence.value_or(0), message.log_time_ns));
+  };
+  reader.for_each(add, recording::Order::file);
   if (messages_.empty())
     throw std::invalid_argument(file + ": contains no ecu_frame; record one with the logger");
 }
@@ -77,6 +83,12 @@ erp::EcuFrame Frames::at(std::size_t k) const {
     for (const auto& value : *analogs->elements())
       erp::append(frame.analogs, analog_of(*value.members()));
   return frame;
+}
+
+std::vector<std::string> Frames::clock_steps() const {
+  std::vector<std::string> lines;
+  for (const auto& step : times_.steps()) lines.push_back(recording::text_of(step, times_ns_[0]));
+  return lines;
 }
 
 }  // namespace replay

@@ -13,9 +13,9 @@ constexpr std::size_t clock_period_frames = 50;  // 10 Hz
 /// The number of frames in a run of `duration_s`; all frames if it is 0.
 std::size_t number_of_frames(const Frames& frames, double duration_s) {
   if (duration_s <= 0) return frames.size();
-  const auto limit = frames.at(0).stamp_ns + std::llround(1e9 * duration_s);
+  const auto limit_ns = std::llround(1e9 * duration_s);
   std::size_t k = 0;
-  while (k < frames.size() && frames.at(k).stamp_ns < limit) ++k;
+  while (k < frames.size() && frames.since_start_ns(k) < limit_ns) ++k;
   return k;
 }
 
@@ -26,10 +26,12 @@ ReplayNode::ReplayNode(const Params& params, const erp::Robot&, node::Node& node
       frames_(params.file),
       frame_out_(node.advertise<erp::EcuFrame>()),
       clock_out_(node.advertise<erp::Clock>()),
-      end_(number_of_frames(frames_, node.options().duration_s)),
-      recorded_start_ns_(frames_.at(0).stamp_ns) {
+      end_(number_of_frames(frames_, node.options().duration_s)) {
   node.on_activate([this] {
     start_ns_ = node::monotonic_ns();
+    for (const auto& step : frames_.clock_steps())
+      node_.report(erp::Severity::warning, "recording", "clock_set",
+                   step + "; the frames are played without this step");
     if (node_.clock().lockstep()) play_next();
   });
   node.subscribe<erp::EcuCommand>([this](const erp::EcuCommand& command) {
@@ -50,9 +52,7 @@ void ReplayNode::publish_frame() {
 
 void ReplayNode::play_due() {
   while (next_ <= end_) {
-    if (next_ < end_ &&
-        frames_.at(next_).stamp_ns - recorded_start_ns_ > node::monotonic_ns() - start_ns_)
-      return;
+    if (next_ < end_ && frames_.since_start_ns(next_) > node::monotonic_ns() - start_ns_) return;
     play_next();
   }
 }
@@ -61,15 +61,15 @@ void ReplayNode::play_next() {
   const bool finished = next_ >= end_;
   if (!finished) {
     frame_ = frames_.at(next_);
-    if (node_.clock().lockstep())
-      frame_.stamp_ns -= recorded_start_ns_, node_.clock().advance(frame_.stamp_ns);
-    else frame_.stamp_ns = node_.clock().now_ns();
+    played_ns_ = frames_.since_start_ns(next_);
+    node_.clock().advance(played_ns_);
+    frame_.stamp_ns = node_.clock().stamp_ns();
     publish_frame();
   }
   ++next_;
   if (finished || next_ % clock_period_frames == 0) {
     erp::Clock clock;
-    clock.stamp_ns = frame_.stamp_ns;
+    clock.stamp_ns = played_ns_;
     clock.finished = finished;
     clock_out_.publish(clock);
   }

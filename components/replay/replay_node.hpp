@@ -20,6 +20,7 @@ class ReplayNode {
   };
   /// Throws if the recording is missing or contains no frames.
   static void check(const Params& params) { Frames frames(params.file); }
+  static const char* role(const Params&) { return node::device_role; }
   ReplayNode(const Params& params, const erp::Robot& robot, node::Node& node);
 
  private:
@@ -32,7 +33,7 @@ class ReplayNode {
   node::Publisher<erp::EcuFrame>& frame_out_;
   node::Publisher<erp::Clock>& clock_out_;
   std::size_t next_ = 0, end_;
-  std::int64_t recorded_start_ns_ = 0, start_ns_ = 0, published_ns_ = 0;
+  std::int64_t start_ns_ = 0, published_ns_ = 0, played_ns_ = 0;
   erp::EcuFrame frame_;
 };
 

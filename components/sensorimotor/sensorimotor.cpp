@@ -59,8 +59,7 @@ void Sensorimotor::on_image(const erp::ImagePoint& points) {
 erp::ActuatorCommand Sensorimotor::step(const erp::SensorFrame& frame, double dt_s,
                                         const node::Latest<erp::ImagePoint>& points) {
   time_s_ += dt_s;
-  const double age_s = 1e-9 * static_cast<double>(frame.stamp_ns - points->stamp_ns);
-  if (points && points->stamp_ns != last_image_ns_ && age_s <= params_.stale_s)
+  if (points && points->stamp_ns != last_image_ns_ && points.age_s <= params_.stale_s)
     last_image_ns_ = points->stamp_ns, on_image(points.message);
   const Eigen::VectorXd& motors_N = session_.motors_N(time_s_);
   erp::ActuatorCommand command;

@@ -167,7 +167,7 @@ void SimNode::tick() {
 void SimNode::measure_and_publish() {
   node_.clock().advance(static_cast<std::int64_t>(ticks_) * tick_ns);
   frame_.sequence = ticks_;
-  frame_.stamp_ns = node_.clock().now_ns();
+  frame_.stamp_ns = node_.clock().stamp_ns();
   if (!external_)
     ecus_.fill(frame_), publish_frame();  // published first: the control loop waits for it
   publish_truth();

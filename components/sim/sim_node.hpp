@@ -63,6 +63,10 @@ class SimNode {
     }
   };
 
+  /// Behind a gateway, the gateway is the device.
+  static const char* role(const Params& params) {
+    return params.bus.empty() && !params.has_external_ecus() ? node::device_role : "";
+  }
   SimNode(const Params& params, const erp::Robot& robot, node::Node& node);
 
  private:

@@ -63,6 +63,7 @@ typedef struct {
   uint32_t bad_setpoints;                  /* consecutive */
   uint32_t rejected_setpoints;             /* since initialization */
   uint32_t rejected_commits;               /* since initialization */
+  uint32_t accepted_commits;               /* since initialization */
   float gains[ECU_PARAMETER_COUNT];        /* in effect */
   float gains_staged[ECU_PARAMETER_COUNT]; /* written, not yet committed */
   uint64_t written;                        /* bits: parameters staged or in effect */

@@ -187,6 +187,7 @@ void frame_pack_health(bus_frame* frame, uint8_t ecu, uint8_t channel,
     put_setpoint(&c, content->setpoint);
     put(&c, 16, content->rejected);
     put(&c, 8, content->refused_gain_sets);
+    put(&c, 3, content->accepted_gain_sets);
   }
   finish_frame(frame, channel ? FRAME_HEALTH_1 : FRAME_HEALTH_0, ecu, &c);
 }
@@ -206,6 +207,7 @@ bool frame_unpack_health(const bus_frame* frame, frame_health* content) {
     content->setpoint = take_setpoint(&c);
     content->rejected = (uint16_t)take(&c, 16);
     content->refused_gain_sets = take8(&c, 8);
+    content->accepted_gain_sets = take8(&c, 3);
   }
   return true;
 }

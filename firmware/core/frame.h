@@ -19,7 +19,7 @@
  *   HEALTH     6, 7  ECU -> host  channel 0, channel 1: page 1, counter 3, then
  *                                   page 0:  encoder 32, warning 1, lost 8, corrupt 8
  *                                   page 1:  request 3, set-point 22 (s), rejected 16,
- *                                            refused gain sets 8
+ *                                            refused gain sets 8, accepted gain sets 3
  *   PARAMETER  8     host -> ECU  channel 1, index 6, commit 1, position 8, float32
  *   DISCOVER   9     host -> ECU  no data; to one address, or to 127: all ECUs
  *   HELLO      10    ECU -> host  version 6, channels 2, analog inputs 4, reset cause 4, serial 24
@@ -46,7 +46,7 @@
 extern "C" {
 #endif
 
-#define FRAME_VERSION 3u
+#define FRAME_VERSION 4u
 #define FRAME_ECUS 127u                  /* addresses 0 .. 126 */
 #define FRAME_EVERYONE 127u              /* address of a DISCOVER that all ECUs answer */
 #define FRAME_SETPOINT_MAX 2097151       /* 22 bits signed; -2097152 is reserved: */
@@ -120,7 +120,7 @@ typedef struct {
 } frame_analog;
 
 typedef struct {
-  uint8_t page; /* 0: encoder to corrupt; 1: request to refused_gain_sets; the other fields are 0 */
+  uint8_t page; /* 0: encoder to corrupt; 1: request to accepted_gain_sets; the other fields are 0 */
   uint8_t counter;
   int32_t encoder_counts; /* full count */
   bool warning;
@@ -128,7 +128,8 @@ typedef struct {
   uint8_t request;
   int32_t setpoint;          /* in effect */
   uint16_t rejected;         /* set-points since boot, modulo 65536 */
-  uint8_t refused_gain_sets; /* since boot, modulo 256 */
+  uint8_t refused_gain_sets;  /* since boot, modulo 256 */
+  uint8_t accepted_gain_sets; /* since boot, modulo 8 */
 } frame_health;
 
 typedef struct {

@@ -53,6 +53,7 @@ static bool commit_staged(ecu_channel* channel) {
   }
   copy(channel->gains, channel->gains_staged);
   channel->gains_complete = true;
+  ++channel->accepted_commits;
   ecu_apply(channel, ECU_EVENT_COMMIT);
   return true;
 }

@@ -126,7 +126,8 @@ static void pack_health(const ecu_link* link, uint8_t k, uint8_t page, const ecu
                                 .request = (uint8_t)reading->request,
                                 .setpoint = reading->setpoint,
                                 .rejected = (uint16_t)channel->rejected_setpoints,
-                                .refused_gain_sets = (uint8_t)channel->rejected_commits};
+                                .refused_gain_sets = (uint8_t)channel->rejected_commits,
+                                .accepted_gain_sets = (uint8_t)(channel->accepted_commits & 7u)};
   frame_pack_health(frame, link->ecu, k, &content);
 }
 

@@ -139,6 +139,9 @@ FrameResult Gateway::receive_health(Ecu& ecu, const CanFrame& frame) {
     channel.encoder_known = true;
   } else {
     channel.followed = {content.request, content.setpoint};
+    EcuChannelSample& sample = samples(tick_.channels)[static_cast<std::size_t>(index)];
+    sample.gain_sets_accepted = content.accepted_gain_sets;
+    sample.gain_sets_refused = content.refused_gain_sets;
   }
   return FrameResult::nothing;
 }

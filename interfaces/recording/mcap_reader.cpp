@@ -79,7 +79,18 @@ void copy(const McapReader& reader, McapWriter& writer) {
 
 }  // namespace
 
-void McapReader::for_each(const std::function<void(const Message&)>& callback) const {
+void McapReader::for_each_in_file_order(const std::function<void(const Message&)>& callback) const {
+  for (const Region& region : contents_.regions) {
+    const LoadedRegion loaded = load(file_, region);
+    std::vector<std::size_t> by_offset(loaded.messages.size());
+    std::iota(by_offset.begin(), by_offset.end(), std::size_t{0});
+    std::ranges::sort(by_offset, {}, [&](std::size_t i) { return loaded.messages[i].second; });
+    for (const std::size_t i : by_offset) emit(loaded, i, callback);
+  }
+}
+
+void McapReader::for_each(const std::function<void(const Message&)>& callback, Order order) const {
+  if (order == Order::file) return for_each_in_file_order(callback);
   const auto& regions = contents_.regions;
   std::vector<std::size_t> regions_by_start(regions.size());
   std::iota(regions_by_start.begin(), regions_by_start.end(), std::size_t{0});

@@ -15,6 +15,11 @@ struct Message {
   ByteView data;
 };
 
+enum class Order {
+  log_time,  ///< equal times keep the order of the file
+  file,      ///< as written, even if the clock of the log times was set back
+};
+
 /// Reads an MCAP file of any program (compression none or zstd), complete or truncated.
 class McapReader {
  public:
@@ -34,15 +39,17 @@ class McapReader {
   }
   const std::string& path() const { return file_.path(); }
 
-  /// Calls `callback` for every message, sorted by log time; equal times keep the order of the
-  /// file. Chunks that overlap in time stay in memory, up to 256 MB.
-  void for_each(const std::function<void(const Message&)>& callback) const;
+  /// Calls `callback` for every message. Sorted by log time, chunks that overlap in time stay in
+  /// memory, up to 256 MB.
+  void for_each(const std::function<void(const Message&)>& callback,
+                Order order = Order::log_time) const;
 
  protected:
   McapReader(std::string path, bool tolerant)
       : file_(std::move(path)), contents_(scan(file_, tolerant)) {}
 
  private:
+  void for_each_in_file_order(const std::function<void(const Message&)>& callback) const;
   void emit(const LoadedRegion& region, std::size_t i,
             const std::function<void(const Message&)>& callback) const;
 

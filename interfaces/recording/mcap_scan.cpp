@@ -254,6 +254,9 @@ Contents scan(const InputFile& file, bool tolerant) {
 void ChannelStatistics::count(const MessageHead& head) {
   first_ns = messages ? std::min(first_ns, head.log_time_ns) : head.log_time_ns;
   last_ns = std::max(last_ns, head.log_time_ns);
+  const auto stamp_ns = static_cast<std::int64_t>(head.publish_time_ns);
+  if (!messages) first_stamp_ns = stamp_ns;
+  times.add(stamp_ns, head.sequence, head.log_time_ns);
   if (messages++ > 0) {
     // MCAP stores 32 bits of the number: a step of more than half their range is a restart.
     const std::uint32_t step = head.sequence - last_sequence;

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "interfaces/recording/frame_times.hpp"
 #include "interfaces/recording/mcap_region.hpp"
 
 /// One pass over an MCAP file: lists its contents and determines whether it is complete. It uses
@@ -16,6 +17,8 @@ struct ChannelStatistics {
   std::uint64_t missing = 0;   ///< skipped sequence numbers
   std::uint64_t restarts = 0;  ///< number of times that the sequence restarted
   std::uint32_t last_sequence = 0;
+  std::int64_t first_stamp_ns = 0;
+  FrameTimes times;  ///< of the stamps; meaningful for messages in the order of their stamps
   void count(const MessageHead& head);
 };
 

@@ -6,6 +6,7 @@
 
 #include "interfaces/recording/column_group.hpp"
 #include "interfaces/recording/fields.hpp"
+#include "interfaces/recording/frame_times.hpp"
 #include "interfaces/recording/mcap_reader.hpp"
 #include "interfaces/recording/ros2msg.hpp"
 #include "interfaces/recording/table.hpp"
@@ -32,7 +33,7 @@ constexpr Source line_source{"line_m", "line_m", erp::valid::line};
 constexpr Source joint_source{"angle_rad", "angle_rad", erp::valid::joint_angle};
 
 struct Row {
-  std::int64_t stamp_ns;
+  std::int64_t at_ns;  ///< its stamp, without steps of the clock
   std::uint64_t sequence, log_time_ns;
 };
 
@@ -51,7 +52,7 @@ struct SetPoint {
 };
 
 struct Pose {
-  std::int64_t stamp_ns;
+  std::int64_t at_ns;
   double q[4];
 };
 
@@ -68,7 +69,7 @@ class Builder {
   }
 
   Table run() {
-    recording_.for_each([&](const Message& message) { take(message); });
+    recording_.for_each([&](const Message& message) { take(message); }, Order::file);
     if (rows_.empty())
       throw RecordingError(recording_.path() + ": contains no sensor_frame" +
                            (options_.robot.empty() ? "" : " of robot \"" + options_.robot + "\"") +
@@ -110,8 +111,9 @@ class Builder {
 
   void take_frame(const Members& frame, std::uint64_t log_time_ns) {
     const std::size_t row = rows_.size();
-    rows_.push_back({integer_in<std::int64_t>(frame, "stamp_ns"),
-                     integer_in<std::uint64_t>(frame, "sequence"), log_time_ns});
+    const auto sequence = integer_in<std::uint64_t>(frame, "sequence");
+    const auto stamp_ns = integer_in<std::int64_t>(frame, "stamp_ns");
+    rows_.push_back({times_.add(stamp_ns, sequence, log_time_ns), sequence, log_time_ns});
     each_in(frame, "actuators", [&](const Members& sample) {
       const std::string name = text_in(sample, "name");
       const auto valid = flags_in(sample, "valid");
@@ -158,7 +160,7 @@ class Builder {
       if (number_in(sample, "dof") != 3 || !position || !position->elements() ||
           position->elements()->size() != 4)
         return;
-      Pose pose{integer_in<std::int64_t>(state, "stamp_ns"), {}};
+      Pose pose{times_.steady_ns(integer_in<std::int64_t>(state, "stamp_ns")), {}};
       for (std::size_t i = 0; i < 4; ++i)
         pose.q[i] = (*position->elements())[i].number().value_or(not_taken);
       poses_[source][text_in(sample, "name")].push_back(pose);
@@ -224,13 +226,13 @@ class Builder {
     const std::vector<std::size_t> order = row_order();
     for (auto& [joint, poses] : source->second) {
       if (joints_.has(joint)) continue;
-      std::ranges::stable_sort(poses, {}, &Pose::stamp_ns);
+      std::ranges::stable_sort(poses, {}, &Pose::at_ns);
       for (std::size_t i = 0; i < order.size(); ++i) {
-        const std::int64_t stamp_ns = rows_[order[i]].stamp_ns;
-        const std::int64_t previous_stamp_ns = i ? rows_[order[i - 1]].stamp_ns : stamp_ns - 1;
-        const auto next_pose = std::ranges::upper_bound(poses, stamp_ns, {}, &Pose::stamp_ns);
+        const std::int64_t stamp_ns = rows_[order[i]].at_ns;
+        const std::int64_t previous_stamp_ns = i ? rows_[order[i - 1]].at_ns : stamp_ns - 1;
+        const auto next_pose = std::ranges::upper_bound(poses, stamp_ns, {}, &Pose::at_ns);
         const bool taken =
-            next_pose != poses.begin() && std::prev(next_pose)->stamp_ns > previous_stamp_ns;
+            next_pose != poses.begin() && std::prev(next_pose)->at_ns > previous_stamp_ns;
         constexpr const char* signals[] = {"qw", "qx", "qy", "qz"};
         for (std::size_t k = 0; k < 4; ++k)
           spherical_joints_.set(joint, signals[k], order[i],
@@ -239,11 +241,11 @@ class Builder {
     }
   }
 
-  /// Rows by stamp; equal stamps in the order of the file.
+  /// Rows by time; equal times in the order of the file.
   std::vector<std::size_t> row_order() const {
     std::vector<std::size_t> order(rows_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return rows_[i].stamp_ns; });
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return rows_[i].at_ns; });
     return order;
   }
 
@@ -254,9 +256,9 @@ class Builder {
     spherical_joints_.move_into(table, rows_.size());
     ecus_.move_into(table, rows_.size());
     const std::vector<std::size_t> order = row_order();
-    const std::int64_t start_ns = rows_[order.front()].stamp_ns;
+    const std::int64_t start_ns = rows_[order.front()].at_ns;
     for (const Row& row : rows_)
-      table.columns[0].values.push_back(static_cast<double>(row.stamp_ns - start_ns) / 1e9);
+      table.columns[0].values.push_back(static_cast<double>(row.at_ns - start_ns) / 1e9);
     if (options_.sequences) {
       Column& sequence = table.columns.emplace_back(Column{"sequence", {}});
       for (const Row& row : rows_) sequence.values.push_back(static_cast<double>(row.sequence));
@@ -275,6 +277,7 @@ class Builder {
   std::map<std::uint16_t, TypeDescription> types_;
   std::set<std::string> robots_;
   std::vector<Row> rows_;
+  FrameTimes times_;
   ColumnGroup actuators_, joints_, spherical_joints_, ecus_;
   std::vector<Target> targets_;
   std::vector<SetPoint> sent_, followed_;

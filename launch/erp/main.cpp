@@ -19,6 +19,7 @@ void add_verbs(CLI::App& app, Chosen& chosen) {
   add_launch(app, chosen);
   add_check(app, chosen);
   add_help(app, chosen);
+  add_command(app, chosen);
   add_graph_view(app, chosen);
   add_topic_view(app, chosen);
   add_log(app, chosen);
@@ -37,7 +38,8 @@ struct Family {
 
 /// The verbs by purpose, as `erp` without a verb lists them.
 const std::vector<Family> families{
-    {"Run a robot, simulated or real", {"launch", "check", "help"}},
+    {"Run a robot, simulated or real", {"launch", "check", "doctor", "help"}},
+    {"Command a running robot", {"send", "set", "stop"}},
     {"Inspect a running graph", {"ps", "ls", "graph", "hz", "echo", "delay"}},
     {"Evaluate recordings", {"log"}},
     {"Describe and calibrate a robot", {"model", "calibrate"}},

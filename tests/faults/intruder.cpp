@@ -1,7 +1,7 @@
 // An unauthorised participant: commands mode off to every actuator at the highest priority, and
 // receives sensor frames.
 //   intruder ROBOT.xml SECONDS [NAME]
-// With a NAME it claims to be the component of that name, and to have joined first.
+// With a NAME it claims to be the component of that name, to have joined first and to be active.
 // Prints the largest numbers of matched readers and writers, the number of received frames, and the
 // time until both were matched.
 #include <algorithm>
@@ -23,7 +23,7 @@ constexpr int highest_priority = 100;
 
 node::Peer impostor(const std::string& name, const std::string& robot) {
   node::Peer peer = node::own_peer(name.empty() ? "intruder" : name, name.empty() ? "" : robot);
-  if (!name.empty()) peer.joined_ns = 1;
+  if (!name.empty()) peer.joined_ns = 1, peer.active = true;
   return peer;
 }
 

@@ -86,7 +86,10 @@ class TestController {
 
 }  // namespace
 
-TEST_CASE("halving a gain of a running ECU halves its voltage; an unknown gain is reported once") {
+TEST_CASE(
+    "halving a gain of a running ECU halves its voltage; unknown gains, gains that the ECU refuses "
+    "and"
+    " limits above robot.xml are reported") {
   Folder folder;
   Background graph({"launch", "launch/idle.xml", "--out", folder / "run"}, folder / "run.txt");
   REQUIRE(graph.wait_for_output("all components are active"));
@@ -103,9 +106,16 @@ TEST_CASE("halving a gain of a running ECU halves its voltage; an unknown gain i
   controller.set_gain("flexor", "charm", 2);
   const auto last = controller.run_for(0.5);
   CHECK(last.voltage_V == controller.with_gain(gain / 2, last));
+  controller.set_gain("flexor", "length_gain_V_per_rad", -1);
+  controller.set_gain("flexor", "tension_trip_N", 500);
+  CHECK(graph.wait_for_output("its ECU refused length_gain_V_per_rad = -1"));
+  CHECK(graph.wait_for_output("tension_trip_N must be above 0 and at most robot.xml's"));
+  const auto unchanged = controller.run_for(0.5);
+  CHECK(unchanged.voltage_V == controller.with_gain(gain / 2, unchanged));
   CHECK(graph.stop() == 0);
   const auto output = graph.output();
-  const auto first = output.find("there is no gain charm of flexor");
+  CHECK(output.find("its ECU accepted length_gain_V_per_rad") != output.npos);
+  const auto first = output.find("there is no gain charm");
   CHECK(first != output.npos);
   CHECK(output.find("there is no gain charm", first + 1) == output.npos);  // reported once
 }

@@ -7,6 +7,7 @@
 
 #include "interfaces/graph/graph.hpp"
 #include "launch/erp/inspect/check.hpp"
+#include "launch/erp/inspect/doctor.hpp"
 #include "launch/erp/inspect/graph_view.hpp"
 #include "launch/erp/inspect/reference.hpp"
 #include "launch/erp/inspect/topic_view.hpp"
@@ -88,7 +89,16 @@ void add_help(CLI::App& app, Chosen& chosen) {
   });
 }
 
+static void add_doctor(CLI::App& app, Chosen& chosen) {
+  auto* verb = app.add_subcommand(
+      "doctor", "Check whether this computer can run a robot: bus, real time, CAN, clocks, disk");
+  auto robot = std::make_shared<std::string>();
+  verb->add_option("robot", *robot, "robot.xml whose CAN bit rates are compared");
+  verb->callback([robot, &chosen] { chosen = [robot] { return doctor(*robot, std::cout); }; });
+}
+
 void add_graph_view(CLI::App& app, Chosen& chosen) {
+  add_doctor(app, chosen);
   app.add_subcommand("ps", "List components on the bus: state, rate, age of their input, jitter")
       ->callback([&chosen] { chosen = [] { return show_components(std::cout); }; });
   app.add_subcommand("ls", "List topics on the bus: type, writers, readers")->callback([&chosen] {

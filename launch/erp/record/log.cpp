@@ -72,6 +72,18 @@ void print_head(const McapReader& reader, std::ostream& out) {
         << reader.path() << '\n';
 }
 
+/// Steps of the clock that stamped the frames.
+void print_clock_steps(const McapReader& reader, std::ostream& out) {
+  for (const auto& [id, channel] : reader.channels()) {
+    const auto statistics = reader.statistics().find(id);
+    if (channel.topic != "ecu_frame" || statistics == reader.statistics().end()) continue;
+    const recording::ChannelStatistics& frames = statistics->second;
+    for (const auto& step : frames.times.steps())
+      out << "  " << recording::text_of(step, frames.first_stamp_ns)
+          << "; log times and exported times do not contain this step\n";
+  }
+}
+
 void print_topics(const McapReader& reader, std::ostream& out) {
   std::vector<std::vector<std::string>> cells{
       {"topic", "type", "messages", "rate", "missing", "restarts", "writers"}};
@@ -98,6 +110,7 @@ int log_info(const std::string& path, std::ostream& out) {
   return guarded([&] {
     const McapReader reader(path);
     print_head(reader, out);
+    print_clock_steps(reader, out);
     out << '\n';
     print_topics(reader, out);
     print_attachments(reader, out);

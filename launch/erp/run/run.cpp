@@ -136,7 +136,8 @@ bool Run::finds_conflict() {
        time_.tick(node::monotonic_ns())) {
     wait();
     for (const auto& peer : bus_.peers()) {
-      if (!index_of_.contains(peer.component)) continue;
+      const bool is_sole = peer.role == node::plant_role || peer.role == node::device_role;
+      if (!index_of_.contains(peer.component) && !is_sole) continue;
       print(conflict_text(peer.component, peer.robot, peer.pid));
       return true;
     }

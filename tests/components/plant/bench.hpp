@@ -26,6 +26,7 @@ inline erp::Robot one_muscle(erp::SafeAction safe = erp::SafeAction::relax) {
   erp::Actuator actuator;
   actuator.name = "flexor", actuator.motor = "m", actuator.sensors = "s";
   actuator.max_tension_N = 150, actuator.safe_action = safe, actuator.spindle.radius_m = 0.0045;
+  actuator.tendon.stiffness_N_per_m = 6000, actuator.tendon.damping_N_s_per_m = 20;
   robot.actuators.push_back(actuator);
   return robot;
 }

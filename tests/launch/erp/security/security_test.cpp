@@ -1,6 +1,8 @@
 // Folders of `erp security make`: a process uses a valid folder and rejects an invalid one.
 #include "launch/erp/security/security.hpp"
 
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
@@ -110,6 +112,16 @@ TEST_CASE("a key that other users can read is rejected") {
   const auto key = authorities.own / "identity.key";
   fs::permissions(key, fs::perms::group_read, fs::perm_options::add);
   check_rejected(authorities.own, "identity.key", "mode 0640; chmod 600");
+}
+
+TEST_CASE("a folder that other users can change, or that belongs to another user, is rejected") {
+  const TwoAuthorities authorities;
+  fs::permissions(authorities.own, fs::perms::others_write, fs::perm_options::add);
+  check_rejected(authorities.own, "own", "mode 0702; chmod 700");
+  fs::permissions(authorities.own, fs::perms::owner_all);
+  if (geteuid() != 0) return;  // only root can give a folder away
+  REQUIRE(chown(authorities.own.c_str(), 1234, 1234) == 0);
+  check_rejected(authorities.own, "own", "belongs to another user, number 1234");
 }
 
 TEST_CASE("an expired or not yet valid certificate is rejected") {

@@ -1,0 +1,15 @@
+#pragma once
+#include <cstdint>
+#include <limits>
+
+/// The emergency off. A command of mode off with this priority is latched by the plant: the actuator
+/// stays off, whatever other controllers command and whether its sender still runs, until a command
+/// of mode `release_mode` with this priority.
+namespace erp {
+
+inline constexpr std::int32_t emergency_priority = std::numeric_limits<std::int32_t>::max();
+
+/// In place of a mode: the sender gives up the actuator at once, instead of becoming stale.
+inline constexpr std::uint8_t release_mode = 255;
+
+}  // namespace erp

@@ -1,0 +1,44 @@
+#pragma once
+#include <iosfwd>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// Verbs that command a running robot from a terminal, through its plant. They return exit codes.
+namespace launch {
+
+/// Above the controllers of the shipped graphs (0 to 10); chosen.
+inline constexpr int hand_priority = 50;
+/// Name of `erp send` and `erp set` as a controller: together they are one.
+inline constexpr const char* hand_controller = "erp";
+
+struct StopOptions {
+  std::string robot;  ///< empty: every robot on the bus
+  bool release = false;
+};
+/// Switches all actuators off and keeps them off after the verb has ended, whatever controllers
+/// command; or releases them. Returns 0 when the plants of all robots have confirmed it, 1 otherwise.
+int stop_robots(const StopOptions& options, std::ostream& out);
+
+struct SendOptions {
+  std::string robot;
+  std::vector<std::string> actuators;
+  std::string mode;  ///< voltage, length, current, force or off
+  double reference = 0;
+  int priority = hand_priority;
+  double for_s = 0;  ///< 0: until Ctrl-C
+};
+/// Commands actuators and prints what they measure; gives them up at the end. Returns 1 if another
+/// controller keeps an actuator, with its name and priority.
+int send_command(const SendOptions& options, std::ostream& out);
+
+struct SetOptions {
+  std::string robot, actuator;
+  std::vector<std::pair<std::string, double>> gains;
+  int priority = hand_priority;
+};
+/// Changes gains of an actuator's ECU. Returns 0 when the ECU has accepted them; otherwise 1, and
+/// prints who refused them and why.
+int set_gains(const SetOptions& options, std::ostream& out);
+
+}  // namespace launch
