@@ -49,16 +49,18 @@ void PlantNode::on_frame(const erp::EcuFrame& frame) {
 
 void PlantNode::on_command(const erp::ActuatorCommand& command) {
   plant_.receive(command, node_.clock().elapsed_ns());
-  const auto previous_answer = std::find_if(answers_.begin(), answers_.end(), [&](const Answer& a) {
-    return a.controller == command.controller;
-  });
-  if (previous_answer == answers_.end()) answers_.push_back({command.controller, command.answers});
-  else previous_answer->answers = command.answers;
+  if (node_.clock().lockstep()) store_answer(command);
   if (!answer_pending_) {
     if (!node_.clock().lockstep() && frame_received_) answer();
     return;
   }
   if (!node_.clock().lockstep() || all_answered()) answer();
+}
+
+void PlantNode::store_answer(const erp::ActuatorCommand& command) {
+  const auto previous = std::ranges::find(answers_, command.controller, &Answer::controller);
+  if (previous == answers_.end()) answers_.push_back({command.controller, command.answers});
+  else previous->answers = command.answers;
 }
 
 bool PlantNode::all_answered() const {

@@ -22,6 +22,7 @@ class PlantNode {
  private:
   void on_frame(const erp::EcuFrame& frame);
   void on_command(const erp::ActuatorCommand& command);
+  void store_answer(const erp::ActuatorCommand& command);
   bool all_answered() const;
   void answer();
   void repeat_answer();
@@ -41,7 +42,7 @@ class PlantNode {
   node::Publisher<erp::EcuParameter>& parameter_out_;
   node::Publisher<erp::ActuatorOwner>& owner_out_;
   node::Subscription<erp::ActuatorCommand>* command_in_;
-  std::vector<Answer> answers_;
+  std::vector<Answer> answers_;  ///< in lockstep
   std::uint64_t current_frame_ = 0, frame_count_ = 0;
   bool frame_received_ = false, answer_pending_ = false;
   std::int64_t pending_since_ns_ = 0;

@@ -129,6 +129,12 @@ TEST_CASE(
   const auto steps_s = reported_steps_s(rig.recording());
   REQUIRE(steps_s.size() == 5);
   for (std::size_t k = 0; k < 5; ++k) CHECK(steps_s[k] == Approx(set_by_s[k]).margin(0.05));
+  const auto replayed = run("erp launch " + rig.folder / "graph.xml" + " --device replay:" +
+                            rig.recording() + " --lockstep --out " + rig.folder / "again");
+  INFO(replayed.output);
+  CHECK(replayed.exit_code == 0);
+  CHECK(replayed.output.find("s after the first frame; the frames are played without this step") !=
+        std::string::npos);
 }
 
 TEST_CASE("the command of a stopped controller stays stale when the clock is set") {

@@ -137,7 +137,7 @@ void examine_can(Findings& findings) {
   for (const auto& [name, flags] : network_interfaces()) {
     if (!is_can(name)) continue;
     ++count;
-    const auto rate_per_s = erp::bitrate_per_s(name);
+    const auto rate_per_s = erp::can::bitrate_per_s(name);
     const std::string rate =
         rate_per_s ? fmt::format("{:.0f} kbit/s", 1e-3 * *rate_per_s) : "no bit rate (virtual)";
     if (flags & IFF_UP) findings.push_back({Grade::good, "CAN " + name, "up, " + rate, ""});
@@ -158,7 +158,7 @@ void examine_robot(const std::string& file, Findings& findings) {
   for (const erp::BusPlan& plan : robot.buses()) {
     const std::string interface = "can" + std::to_string(number++);
     const std::string what = "bus " + plan.name + " on " + interface;
-    const auto rate_per_s = erp::bitrate_per_s(interface);
+    const auto rate_per_s = erp::can::bitrate_per_s(interface);
     const std::string planned = fmt::format("{:.0f} kbit/s", 1e-3 * plan.bitrate_per_s);
     if (rate_per_s && *rate_per_s == plan.bitrate_per_s)
       findings.push_back({Grade::good, what, planned, ""});
