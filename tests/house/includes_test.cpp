@@ -101,6 +101,9 @@ const std::vector<Rule> rules{
     {"launch/erp/inspect/",
      {"interfaces/", "components/node/", "hal/can/", "launch/erp/text/", "launch/erp/verbs/",
       "launch/erp/run/", "launch/erp/gap/", "sim/model/", "sim/control/", "sim/learning/"}},
+    {"launch/erp/command/",
+     {"interfaces/", "components/node/", "launch/erp/text/", "launch/erp/verbs/",
+      "launch/erp/inspect/"}},
     {"launch/erp/", {"interfaces/", "launch/erp/"}},
 };
 

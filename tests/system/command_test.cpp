@@ -115,6 +115,19 @@ TEST_CASE("erp doctor examines this computer, and a wrong domain is a problem wi
   CHECK(run("erp doctor no_such_file.xml").exit_code == 2);
 }
 
+TEST_CASE("a device that stops while its process lives is reported within 1 s, and its return") {
+  Rig rig("idle");
+  std::this_thread::sleep_for(1s);
+  const pid_t sim = rig.graph.child("sim");
+  REQUIRE(sim > 0);
+  kill(sim, SIGSTOP);
+  CHECK(rig.graph.wait_for_output("no frame has reached the plant for "));
+  CHECK(rig.graph.wait_for_output("no heartbeat from sim"));
+  kill(sim, SIGCONT);
+  CHECK(rig.graph.wait_for_output("frames reach the plant again after"));
+  rig.graph.stop();
+}
+
 TEST_CASE("without a robot, erp stop fails and names the remedy") {
   const auto stopped = run("erp stop");
   CHECK(stopped.exit_code == 1);

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
+#include <regex>
 #include <set>
 
 #include "firmware/core/ecu.h"
@@ -116,6 +117,17 @@ TEST_CASE("the intervals of a replayed real-time recording are exact to 1 ns") {
                             "--lockstep --for 2s " + device_options("replay", original));
   CHECK(stamps(original).size() > 100);
   CHECK(stamps(again) == stamps(original));
+}
+
+TEST_CASE("the summary of a run grades the errors of joints") {
+  const Folder folder;
+  const auto ran =
+      run("erp launch launch/puller_follower.xml --lockstep --for 3s --out " + folder / "run");
+  INFO(ran.output);
+  CHECK(ran.exit_code == 0);
+  const std::regex row(
+      "\njoint +RMS error +largest\nelbow +(good|fair|poor) +[0-9.]+ ° +[0-9.]+ °\n");
+  CHECK(std::regex_search(ran.output, row));
 }
 
 TEST_CASE("a force step: rise time at most 318 ms, steady-state RMS error at most 0.236 N") {

@@ -6,6 +6,8 @@
 #include <iostream>
 
 #include "interfaces/recording/error.hpp"
+#include "interfaces/recording/mcap_reader.hpp"
+#include "launch/erp/record/run_quality.hpp"
 
 namespace launch {
 namespace {
@@ -192,8 +194,9 @@ int print_summary(const RecordedRun& run, std::ostream& out) try {
   if (run.active_s < 0) return 0;  // the device never ran
   recording::TableOptions options;
   options.lines = options.targets = true;
-  options.robot = run.robot;
-  const auto table = recording::read_table(run.parts.back(), options);
+  options.robot = run.robot.name;
+  const recording::McapReader recording(run.parts.back());
+  const auto table = recording::table_of(recording, options);
   const double span_s = table.columns.front().values.back();
   out << fmt::format("{} {:.2f} s", run.parts.size() > 1 ? "the last part covers" : "it covers",
                      span_s)
@@ -203,6 +206,7 @@ int print_summary(const RecordedRun& run, std::ostream& out) try {
       << '\n';
   print_tracking(tracking(table), out);
   print_steps(step_responses(table), out);
+  print_quality(recording, table, run.robot, out);
   return 0;
 } catch (const recording::RecordingError& error) {
   std::cerr << error.what() << '\n';

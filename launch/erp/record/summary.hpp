@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "interfaces/recording/table.hpp"
+#include "interfaces/robot/robot.hpp"
 #include "interfaces/values.hpp"
 
-/// Summary of a run from its recording: tracking error and step response of each actuator.
+/// Summary of a run from its recording.
 namespace launch {
 
 /// Error = measured − target, in the unit of the target, while the ECU is running.
@@ -34,11 +35,12 @@ std::vector<StepResponse> step_responses(const recording::Table& table);
 /// The recordings of a run.
 struct RecordedRun {
   std::vector<std::string> parts;  ///< files, oldest first; at least one
-  std::string robot;
+  erp::Robot robot;
   double active_s =
       -1;  ///< time since all components became active; negative: the device never ran
 };
-/// Prints the file names, and the tracking errors and step responses of the last file. Returns 0,
+/// Prints the file names; of the last file the tracking errors, step responses, joint errors and the
+/// limits that actuators reached (run_quality.hpp). Returns 0,
 /// or 1 if that file cannot be read.
 int print_summary(const RecordedRun& run, std::ostream& out);
 

@@ -110,7 +110,7 @@ int launch_graph(const LaunchOptions& options) {
   Run run(graph, robot.name, plan, run_options.folder);
   const int exit_code = run.execute();
   const auto parts = parts_of(plan.recording, start_time);
-  if (!parts.empty()) print_summary({parts, robot.name, run.active_s()}, std::cout);
+  if (!parts.empty()) print_summary({parts, robot, run.active_s()}, std::cout);
   return exit_code;
 }
 

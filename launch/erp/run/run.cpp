@@ -90,6 +90,7 @@ int Run::execute() {
     stop_after_duration();
     supervisor_.tick(time_.now_ns());
     execute_actions();
+    watch_frames();
     if (time_.now_ns() - last_drawn_ns_ <
         (screen_.is_terminal() ? redraw_period_ns : plain_output_period_ns))
       continue;
@@ -125,6 +126,8 @@ void Run::on_state(const erp::ComponentState& state) {
   if (!member.process || group != member.process->pid()) return reject_conflict(state);
   member.heartbeat = state;
   member.heartbeat_ns = time_.now_ns();
+  if (plan_.processes[entry->second].role == Role::plant)
+    frame_watch_.on_heartbeat(state.steps, time_.now_ns());
   supervisor_.on_heartbeat(entry->second,
                            {static_cast<erp::Lifecycle>(state.lifecycle), state.peers, state.links},
                            time_.now_ns());

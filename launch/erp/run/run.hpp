@@ -7,6 +7,7 @@
 
 #include "interfaces/graph/graph.hpp"
 #include "launch/erp/run/bus_link.hpp"
+#include "launch/erp/run/frame_watch.hpp"
 #include "launch/erp/run/plan.hpp"
 #include "launch/erp/run/process.hpp"
 #include "launch/erp/run/processor_share.hpp"
@@ -45,6 +46,8 @@ class Run {
   void on_event(const erp::Event& event);
   void on_clock(const erp::Clock& clock);
   bool is_ending() const;
+  /// Reports that frames stop while all processes run, and that they resume.
+  void watch_frames();
   void reap();
   void handle_signals();
   void stop_after_duration();
@@ -69,6 +72,7 @@ class Run {
   Screen screen_;
   std::vector<Member> members_;
   std::map<std::string, std::size_t> index_of_;
+  FrameWatch frame_watch_;
   std::int64_t last_drawn_ns_ = 0;
 };
 

@@ -1,5 +1,6 @@
 #include "launch/erp/run/component_row.hpp"
 #include "launch/erp/run/run.hpp"
+#include "launch/erp/text/duration.hpp"
 
 /// The status of a run.
 namespace launch {
@@ -22,6 +23,25 @@ std::string Run::state_of(std::size_t index) const {
   if (on_bus && time_.now_ns() - members_[index].heartbeat_ns > max_heartbeat_age_ns)
     return "silent";
   return name_of(phase);
+}
+
+void Run::watch_frames() {
+  bool running = supervisor_.stage() == Stage::running && graph_.time != erp::Time::lockstep;
+  std::string silent;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    running = running && supervisor_.phase(i) == Phase::active;
+    if (time_.now_ns() - members_[i].heartbeat_ns > FrameWatch::limit_ns / 2)
+      silent += (silent.empty() ? "" : ", ") + plan_.processes[i].name;
+  }
+  const auto change = frame_watch_.update(running, time_.now_ns());
+  const std::string seconds = to_text_s(frame_watch_.stopped_s(time_.now_ns()));
+  if (change == FrameWatch::Change::stopped)
+    print("no frame has reached the plant for " + seconds + ", although every process runs" +
+          (silent.empty() ? "; check the device"
+                          : "; no heartbeat from " + silent +
+                                ": the bus is disturbed, or they are "
+                                "stopped"));
+  if (change == FrameWatch::Change::resumed) print("frames reach the plant again after " + seconds);
 }
 
 Row Run::row(std::size_t index) {
