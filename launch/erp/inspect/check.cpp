@@ -11,6 +11,7 @@
 #include "interfaces/robot/robot.hpp"
 #include "interfaces/xml/xml.hpp"
 #include "launch/erp/gap/gap.hpp"
+#include "launch/erp/run/input_sources.hpp"
 #include "launch/erp/verbs/component_check.hpp"
 #include "sim/control/loop_shaping/joint_loops.hpp"
 #include "sim/learning/calibration/parameters.hpp"
@@ -57,6 +58,7 @@ class Checker {
           out_ << "  bus " << to_string(load) << '\n';
     } else if (root.name == erp::Graph::element) {
       const erp::Graph graph = erp::read_graph(file);
+      check_input_sources(graph, {});
       print_ok(file);
       check(graph.robot);
       for (const erp::GraphComponent& component : graph.components)

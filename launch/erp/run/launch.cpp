@@ -9,6 +9,7 @@
 #include "components/node/security.hpp"
 #include "interfaces/robot/robot.hpp"
 #include "launch/erp/record/summary.hpp"
+#include "launch/erp/run/input_sources.hpp"
 #include "launch/erp/run/plan.hpp"
 #include "launch/erp/run/program.hpp"
 #include "launch/erp/run/run.hpp"
@@ -100,6 +101,7 @@ int launch_graph(const LaunchOptions& options) {
   RunOptions run_options{{}, ".", sources(graph, robot)};
   for (const auto& setting : options.settings)
     run_options.settings.push_back(parse_setting(setting));
+  check_input_sources(graph, run_options.settings);
   check_components(make_plan(graph, run_options, find));  // before the folder is created
   run_options.folder = make_run_folder(options.folder, graph.name, node::wall_ns());
   const FolderLock lock(run_options.folder);
