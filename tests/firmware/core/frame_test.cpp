@@ -169,13 +169,15 @@ TEST_CASE("analog, health, parameter and emergency frames are unchanged by pack 
                          .request = random_byte(0, 7),
                          .setpoint = pick_setpoint(),
                          .rejected = std::uint16_t(pick(0, 65535)),
-                         .refused_gain_sets = random_byte(0, 255)};
+                         .refused_gain_sets = random_byte(0, 255),
+                         .accepted_gain_sets = random_byte(0, 7)};
     frame_health f_out{};
     frame_pack_health(&frame, 9, random_byte(0, 1), &f);
     REQUIRE(frame_unpack_health(&frame, &f_out));
-    CHECK(std::tie(f.page, f.counter, f.request, f.setpoint, f.rejected, f.refused_gain_sets) ==
+    CHECK(std::tie(f.page, f.counter, f.request, f.setpoint, f.rejected, f.refused_gain_sets,
+                   f.accepted_gain_sets) ==
           std::tie(f_out.page, f_out.counter, f_out.request, f_out.setpoint, f_out.rejected,
-                   f_out.refused_gain_sets));
+                   f_out.refused_gain_sets, f_out.accepted_gain_sets));
 
     const auto bits = random_bits();
     frame_parameter g{random_byte(0, 1), random_byte(0, 63), random_bool(), random_byte(0, 255), 0},
