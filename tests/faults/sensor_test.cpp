@@ -109,6 +109,7 @@ TEST_CASE("over-temperature sets PWM to 0 within 102 ms") {
   erp::GainCommand command;
   erp::assign(command.robot, bench.robot().name);
   erp::assign(command.controller, "hand");
+  command.priority = 1;  // above the controller that drives the actuator
   for (const auto& [name, value] : {std::pair{"temperature_C_per_count", 0.1},
                                     {"temperature_derate_C", 70.0},
                                     {"temperature_trip_C", 90.0}}) {
@@ -119,8 +120,9 @@ TEST_CASE("over-temperature sets PWM to 0 within 102 ms") {
     erp::append(command.gains, gain);
   }
   tests::wait_until([&] { return gains.matched() > 0; });
+  const auto sent_ns = node::wall_ns();
   gains.write(command);
-  std::this_thread::sleep_for(300ms);
+  REQUIRE(bench.wait_for([&] { return bench.events().first(sent_ns, "gains", "flexor"); }) != 0);
   ReactionTimes pwm_off("over-temperature", "PWM 0", 100 + 2);
   while (pwm_off.needs_more(std::min(5, injections())))
     inject(bench, pwm_off, ECU_FAULT_OVER_TEMPERATURE,
