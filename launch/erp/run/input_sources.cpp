@@ -17,7 +17,7 @@ struct SourceParameter {
   const char* of_simulator;
   const char* input;
 };
-constexpr std::array sources{
+constexpr std::array source_parameters{
     SourceParameter{"computed_force", "source", "sim", "joint angles"},
     SourceParameter{"puller_follower", "source", "sim", "joint angles"},
     SourceParameter{"experience", "source", "sim", "joint angles"},
@@ -26,10 +26,6 @@ constexpr std::array sources{
     SourceParameter{"motion_capture", "images", "", "images"},
     SourceParameter{"eye", "images", "", "images"},
 };
-
-std::string type_of(const erp::GraphComponent& component) {
-  return component.type.empty() ? component.name : component.type;
-}
 
 /// Value of a parameter: setting, config, or the default.
 std::string value_of(const erp::GraphComponent& component, const SourceParameter& source,
@@ -62,7 +58,7 @@ void check_input_sources(const erp::Graph& graph, const std::vector<Setting>& se
   if (graph.device != erp::Device::can || !graph.hardware) return;
   std::vector<xml::Error> errors;
   for (const erp::GraphComponent& component : graph.components)
-    for (const SourceParameter& source : sources) {
+    for (const SourceParameter& source : source_parameters) {
       if (type_of(component) != source.type) continue;
       const std::string value = value_of(component, source, settings);
       const bool is_image_file = std::string_view(source.parameter) == "images" && !value.empty();

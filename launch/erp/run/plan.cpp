@@ -42,10 +42,6 @@ bool needs_robot_behind_bus(const erp::Graph& graph) {
   return graph.device == erp::Device::can && !graph.hardware;
 }
 
-std::string type_of(const erp::GraphComponent& component) {
-  return component.type.empty() ? component.name : component.type;
-}
-
 /// The <component> of the graph for a component that the launcher adds, or a default without
 /// config. The default restarts the plant whenever it ends, because no actuator moves without it.
 erp::GraphComponent component_for(const erp::Graph& graph, const std::string& type) {
@@ -139,6 +135,10 @@ std::string recording_of(const PlannedProcess& logger) {
 }
 
 }  // namespace
+
+std::string type_of(const erp::GraphComponent& component) {
+  return component.type.empty() ? component.name : component.type;
+}
 
 Setting parse_setting(const std::string& text) {
   const auto equals = text.find('=');

@@ -17,6 +17,9 @@ struct Setting {
 /// Parses component.key=value. Throws std::invalid_argument for other texts.
 Setting parse_setting(const std::string& text);
 
+/// The program of a component.
+std::string type_of(const erp::GraphComponent& component);
+
 /// Sets the device of the graph from `sim`, `can` or `replay:FILE`. Throws std::invalid_argument
 /// for other texts.
 void choose_device(erp::Graph& graph, const std::string& text);

@@ -7,7 +7,7 @@ using Change = launch::FrameWatch::Change;
 
 namespace {
 
-constexpr std::int64_t ms = 1'000'000;
+constexpr std::int64_t ns_per_ms = 1'000'000;
 
 /// Heartbeats every 100 ms until `until_ms`, with frames until `frames_until_ms`. Returns the time
 /// in ms of the first change to `change`; -1: none.
@@ -18,8 +18,8 @@ int first_change_ms(Change change, int until_ms, int frames_until_ms, int frames
   int found_ms = -1;
   for (int now_ms = 0; now_ms < until_ms; now_ms += 100) {
     if (now_ms < frames_until_ms || now_ms >= frames_again_ms) steps += 50;
-    watch.on_heartbeat(steps, now_ms * ms);
-    if (watch.update(running, now_ms * ms) == change && found_ms < 0) found_ms = now_ms;
+    watch.on_heartbeat(steps, now_ms * ns_per_ms);
+    if (watch.update(running, now_ms * ns_per_ms) == change && found_ms < 0) found_ms = now_ms;
   }
   return found_ms;
 }
