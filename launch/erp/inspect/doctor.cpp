@@ -151,25 +151,26 @@ void examine_can(Findings& findings) {
                       "link set can0 up type can bitrate 1000000"});
 }
 
-/// Compares each bus of the robot with the interface can0, can1 … that the gateway opens for it.
+/// Compares one bus of the robot with the interface that the gateway opens for it.
+Finding compare(const erp::BusPlan& plan, const std::string& interface) {
+  const std::string what = "bus " + plan.name + " on " + interface;
+  const auto text = [](double per_s) { return fmt::format("{:.0f} kbit/s", 1e-3 * per_s); };
+  const std::string planned = "robot.xml has " + text(plan.bitrate_per_s);
+  if (!if_nametoindex(interface.c_str()))
+    return {Grade::warning, what, "no such interface, " + planned, "connect the CAN adapter"};
+  const auto rate_per_s = erp::can::bitrate_per_s(interface);
+  if (rate_per_s && *rate_per_s == plan.bitrate_per_s)
+    return {Grade::good, what, text(*rate_per_s), ""};
+  return {Grade::warning, what, (rate_per_s ? text(*rate_per_s) : "no bit rate") + ", " + planned,
+          fmt::format("sudo ip link set {0} down; sudo ip link set {0} up type can bitrate {1:.0f}",
+                      interface, plan.bitrate_per_s)};
+}
+
 void examine_robot(const std::string& file, Findings& findings) {
   const erp::Robot robot = erp::read_robot(file);
   int number = 0;
-  for (const erp::BusPlan& plan : robot.buses()) {
-    const std::string interface = "can" + std::to_string(number++);
-    const std::string what = "bus " + plan.name + " on " + interface;
-    const auto rate_per_s = erp::can::bitrate_per_s(interface);
-    const std::string planned = fmt::format("{:.0f} kbit/s", 1e-3 * plan.bitrate_per_s);
-    if (rate_per_s && *rate_per_s == plan.bitrate_per_s)
-      findings.push_back({Grade::good, what, planned, ""});
-    else
-      findings.push_back(
-          {Grade::warning, what,
-           rate_per_s ? fmt::format("{:.0f} kbit/s, robot.xml has {}", 1e-3 * *rate_per_s, planned)
-                      : "no bit rate, robot.xml has " + planned,
-           fmt::format("sudo ip link set {} down; sudo ip link set {} up type can bitrate {:.0f}",
-                       interface, interface, plan.bitrate_per_s)});
-  }
+  for (const erp::BusPlan& plan : robot.buses())
+    findings.push_back(compare(plan, "can" + std::to_string(number++)));
 }
 
 void examine_disk(Findings& findings) {
