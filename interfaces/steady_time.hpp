@@ -11,12 +11,12 @@ namespace erp {
 ///
 ///   t ← t + (stamp − last stamp)     while the clock was not set
 ///   t ← t + last interval            the stamp is lower than the last one: the clock was set back
-///   t ← t + (interval of arrival)    the stamp is newer than any delay of a message permits: the
-///                                    clock was set forward
+///   t ← t + (interval of arrival)    the stamp advanced by over 0.1 s more than the time of arrival
+///                                    explains: the clock was set forward
 ///
-/// Arrival times must come from a clock that is never set. A set forward of less than `tolerance_ns`
-/// is not recognized, because late messages look the same; nor is one in a recording whose times of
-/// arrival do not advance with its stamps.
+/// Arrival times must come from a clock that is never set. A step forward of less than `tolerance_ns`
+/// is not detected, because late messages look the same. No step forward is detected if times of
+/// arrival advance less than half as fast as stamps.
 class SteadyTime {
  public:
   static constexpr std::int64_t tolerance_ns = 100'000'000;  ///< chosen

@@ -125,7 +125,7 @@ class Reader {
     void* sample = static_cast<typename M::Wire*>(&message_);
     dds_sample_info_t info;
     while (dds_take(reader_.id(), &sample, &info, 1, 1) == 1) {
-      // Also after the end of a writer, because DDS then clears the sequences of the message.
+      // Also for invalid samples: DDS clears the sequences of the message when a writer ends.
       message_.attach_storage();
       if (!info.valid_data) continue;
       count_gap(info.publication_handle, message_.sequence);

@@ -172,9 +172,9 @@ void Node::discover() {
   state_.peers = peers_.count();
   if (const auto& running = peers_.running_duplicate(); running && !finished_)
     finish_as_duplicate_of(*running);
-  if (const auto& later = peers_.later_duplicate(); later && active())
-    report(erp::Severity::warning, later->component, "duplicate",
-           "pid " + std::to_string(later->pid) + " on " + later->host +
+  if (const auto& other = peers_.other_duplicate(); other && active())
+    report(erp::Severity::warning, other->component, "duplicate",
+           "pid " + std::to_string(other->pid) + " on " + other->host +
                " also claims to be the robot's " + self_.role + "; this process continues");
 }
 

@@ -41,8 +41,9 @@ inline bool are_duplicates(const Peer& a, const Peer& b) {
   return (a.component == b.component || a.role == b.role) && a.robot == b.robot &&
          !a.robot.empty() && (a.host != b.host || a.pid != b.pid);
 }
-/// True if `self` must end because of the duplicate `other`. An active process never ends for one
-/// that appears later, whatever the other claims. Of two that start together, the later one ends.
+/// True if `self` must end because of the duplicate `other`. An active process never ends, whatever
+/// the other claims. An inactive one ends if the other is active. If neither is active, the one that
+/// joined later ends.
 inline bool yields_to(const Peer& self, const Peer& other) {
   if (self.active || other.active) return !self.active;
   return std::tie(other.joined_ns, other.host, other.pid) <

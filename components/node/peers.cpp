@@ -63,7 +63,7 @@ void Peers::discover() {
   update_authenticated();
   count_ = 0;
   running_duplicate_.reset();
-  later_duplicate_.reset();
+  other_duplicate_.reset();
   others_.clear();
   for_each_alive<dds_builtintopic_participant_t>(reader_, [&](const auto& sample, const auto&) {
     if (same_guid(sample.key, own_key_)) return;
@@ -73,7 +73,7 @@ void Peers::discover() {
     if (!may_be_alive(peer)) return;
     if (peer.pid != self_.pid || peer.host != self_.host) others_.push_back(peer);
     if (are_duplicates(peer, self_))
-      (yields_to(self_, peer) ? running_duplicate_ : later_duplicate_) = peer;
+      (yields_to(self_, peer) ? running_duplicate_ : other_duplicate_) = peer;
   });
 }
 

@@ -12,18 +12,19 @@ namespace node {
 /// DDS Security, which authenticates them first.
 std::int64_t discovery_ns();
 
-/// The other participants on the bus. With DDS Security, only authenticated participants: any
-/// process can announce itself as an active plant.
+/// The other participants on the bus. With DDS Security only authenticated participants are listed,
+/// because any process could announce itself as an active plant.
 class Peers {
  public:
   Peers(const Entity& participant, Wake& wake, Peer self);
 
   /// Number of participants at the last `discover`, without this one.
   std::uint32_t count() const { return count_; }
-  /// A peer with our name or role and our robot to which we yield, because both would send commands.
+  /// A peer with the same robot and the same name or role for which this process must end, because
+  /// both would send commands.
   const std::optional<Peer>& running_duplicate() const { return running_duplicate_; }
-  /// A peer with our name or role and our robot that must yield to us.
-  const std::optional<Peer>& later_duplicate() const { return later_duplicate_; }
+  /// The same, for which this process does not end.
+  const std::optional<Peer>& other_duplicate() const { return other_duplicate_; }
   /// Announces whether this process takes part in the control of the robot.
   void set_active(bool active);
   /// The peers in other processes that may be alive.
@@ -44,7 +45,7 @@ class Peers {
   std::vector<dds_guid_t> authenticated_;
   std::uint32_t count_ = 0;
   std::vector<Peer> others_;
-  std::optional<Peer> running_duplicate_, later_duplicate_;
+  std::optional<Peer> running_duplicate_, other_duplicate_;
 };
 
 }  // namespace node

@@ -41,7 +41,9 @@ Checked ActuatorChannel::receive(std::string_view controller, std::int32_t prior
   Checked checked = limits_.check(mode, reference);
   if (checked.verdict != Verdict::refused &&
       !arbiter_.update(controller, priority, mode, checked.reference, now_ns, stale_ns))
-    checked = {Verdict::refused, 0, "too many controllers"};
+    checked = {
+        Verdict::refused, 0,
+        arbiter_.is_emergency_off() ? "the emergency off is latched" : "too many controllers"};
   if (checked.verdict == Verdict::limited) ++limited_;
   if (checked.verdict != Verdict::refused && arbiter_.outranked(controller, priority))
     checked = {Verdict::refused, 0, outranked_reason};

@@ -70,6 +70,7 @@ class ActuatorChannel {
   void release(std::string_view controller, std::int32_t priority) {
     arbiter_.release(controller, priority);
   }
+  bool is_released() const { return arbiter_.is_released(); }
   /// True while an emergency off is latched.
   bool is_emergency_off() const { return arbiter_.is_emergency_off(); }
   /// Stores the reported state of the ECU.

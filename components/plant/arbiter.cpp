@@ -42,8 +42,9 @@ bool Arbiter::update(std::string_view controller, std::int32_t priority, erp::Mo
 
 void Arbiter::release(std::string_view controller, std::int32_t priority) {
   const bool releases_emergency = priority == erp::emergency_priority;
+  if (owner_ && owner() == controller) released_ = true;
   for (ControllerCommand& command : commands_)
-    if (controller == command.controller || (releases_emergency && command.is_emergency()))
+    if (command.is_emergency() ? releases_emergency : controller == command.controller)
       command.in_use = false;
 }
 
@@ -57,6 +58,7 @@ const ControllerCommand* Arbiter::winner(std::int64_t now_ns, std::int64_t stale
     if (is_higher || (command.priority == commands_[*winner].priority && owner_ == i)) winner = i;
   }
   owner_ = winner;
+  if (winner) released_ = false;
   return winner ? &commands_[*winner] : nullptr;
 }
 

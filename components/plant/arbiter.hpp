@@ -25,7 +25,7 @@ struct ControllerCommand {
   bool is_emergency() const {
     return in_use && priority == erp::emergency_priority && mode == erp::Mode::off;
   }
-  /// A command from the future is stale: the clock has begun again.
+  /// A command with a later time than now is stale: simulated time has restarted.
   bool is_stale(std::int64_t now_ns, std::int64_t stale_ns) const {
     return !is_emergency() && (!in_use || received_ns > now_ns || now_ns - received_ns > stale_ns);
   }
@@ -37,18 +37,22 @@ class Arbiter {
  public:
   static constexpr std::size_t max_controllers = 8;  // chosen
 
-  /// Stores the command of a controller. In a full table it replaces the command of lowest priority
-  /// if its own is higher, or equal and of mode off; but never a command of the owner of the same
-  /// priority. False if the command was not stored.
+  /// Stores the command of a controller. If the table is full, the new command replaces the one of
+  /// lowest priority. Its priority must be higher, or equal with mode off while the stored mode is
+  /// not off. Only a higher priority replaces the owner's command. False if the command was not
+  /// stored: the table is full, or the controller has latched an emergency off.
   bool update(std::string_view controller, std::int32_t priority, erp::Mode mode, double reference,
               std::int64_t now_ns, std::int64_t stale_ns);
-  /// Forgets the commands of a controller; with the emergency priority, also every emergency off.
+  /// Removes the command of a controller, unless it is an emergency off. With the emergency priority,
+  /// removes every emergency off.
   void release(std::string_view controller, std::int32_t priority);
   /// Forgets all stale commands, selects the owner and returns its command; nullptr if there is
   /// none.
   const ControllerCommand* winner(std::int64_t now_ns, std::int64_t stale_ns);
   /// True if the last winner is an emergency off.
   bool is_emergency_off() const { return owner_ && commands_[*owner_].is_emergency(); }
+  /// True if the last owner has released the actuator, rather than become stale.
+  bool is_released() const { return released_; }
   std::string_view owner() const { return owner_ ? commands_[*owner_].controller : ""; }
   /// True when another controller is the owner and has at least this priority.
   bool outranked(std::string_view controller, std::int32_t priority) const {
@@ -60,6 +64,7 @@ class Arbiter {
   std::optional<std::size_t> replaceable(const ControllerCommand& by, std::int64_t stale_ns) const;
   std::array<ControllerCommand, max_controllers> commands_{};
   std::optional<std::size_t> owner_;  ///< index into commands_
+  bool released_ = false;
 };
 
 }  // namespace plant

@@ -11,7 +11,8 @@
 
 /// The parameters of one ECU channel that the plant is responsible for.
 ///
-///   ECU in boot                     loads the set that an ECU has accepted last; first: robot.xml's
+///   ECU in state boot               the plant sends the last accepted set; before the first one, the
+///                                   set of robot.xml
 ///   a controller proposes values    sent as one set, one set at a time
 ///     the ECU accepts the set       it replaces the last accepted one
 ///     it refuses, or is silent      the set is forgotten
@@ -22,6 +23,7 @@ namespace plant {
 
 class ChannelGains {
  public:
+  /// `unanswered`: no answer within 1 s, or the ECU has reset.
   enum class Result { none, accepted, refused, unanswered };
 
   ChannelGains(std::uint8_t ecu, std::uint8_t channel, const sim::EcuParameters& designed)

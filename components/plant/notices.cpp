@@ -31,22 +31,36 @@ Notice merge(const std::vector<Notice>& group, std::size_t actuators) {
   return merged;
 }
 
-std::string owner_text(const ActuatorChannel& channel, const std::string& previous_owner) {
-  if (channel.is_emergency_off())
-    return "emergency off by " + std::string(channel.owner()) +
-           "; release it with: erp stop --release";
-  if (!channel.owner().empty()) return "driven by " + std::string(channel.owner());
-  switch (channel.safe_action()) {
+std::string safe_action_text(erp::SafeAction action) {
+  switch (action) {
     case erp::SafeAction::hold:
-      return previous_owner + " became stale; holding the line length";
+      return "; holding the line length";
     case erp::SafeAction::relax:
-      return previous_owner + " became stale; relaxing the tendon";
+      return "; relaxing the tendon";
     case erp::SafeAction::damp:
-      return previous_owner + " became stale; damping";
+      return "; damping";
     case erp::SafeAction::none:
       break;
   }
-  return previous_owner + " became stale";
+  return "";
+}
+
+std::string owner_text(const ActuatorChannel& channel, const std::string& previous_owner) {
+  const std::string owner(channel.owner());
+  if (channel.is_emergency_off())
+    return "emergency off by " + owner + "; release it with: erp stop --release";
+  if (!owner.empty()) return "driven by " + owner;
+  return previous_owner + (channel.is_released() ? " released it" : " became stale") +
+         safe_action_text(channel.safe_action());
+}
+
+Notice owner_notice(const ActuatorChannel& channel, const std::string& previous_owner) {
+  const std::string text = owner_text(channel, previous_owner);
+  if (channel.is_emergency_off())
+    return {erp::Severity::warning, channel.name(), "emergency_off", text};
+  if (!channel.owner().empty()) return {erp::Severity::info, channel.name(), "owner", text};
+  if (channel.is_released()) return {erp::Severity::info, channel.name(), "released", text};
+  return {erp::Severity::warning, channel.name(), "stale_command", text};
 }
 
 /// The reason why a reference was limited or refused; names the owner if its priority decided.
@@ -103,13 +117,7 @@ void Plant::notice_changes() {
     const ActuatorChannel& channel = channels_[i];
     Reported& reported = reported_[i];
     if (reported.owner != channel.owner()) {
-      const bool lost = channel.owner().empty(), emergency = channel.is_emergency_off();
-      notices_.push_back({lost || emergency ? erp::Severity::warning : erp::Severity::info,
-                          channel.name(),
-                          emergency ? "emergency_off"
-                          : lost    ? "stale_command"
-                                    : "owner",
-                          owner_text(channel, reported.owner)});
+      notices_.push_back(owner_notice(channel, reported.owner));
       reported.owner = channel.owner();
     }
     if (channel.state() != reported.state && channel.state() == ECU_STATE_FAULT)

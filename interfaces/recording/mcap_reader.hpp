@@ -39,7 +39,7 @@ class McapReader {
   }
   const std::string& path() const { return file_.path(); }
 
-  /// Calls `callback` for every message. Sorted by log time, chunks that overlap in time stay in
+  /// Calls `callback` for every message. With Order::log_time, chunks that overlap in time stay in
   /// memory, up to 256 MB.
   void for_each(const std::function<void(const Message&)>& callback,
                 Order order = Order::log_time) const;

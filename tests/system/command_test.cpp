@@ -89,7 +89,7 @@ TEST_CASE("erp stop keeps every actuator off, against its controller, until erp 
   const auto stopped = run("erp stop");
   INFO(stopped.output);
   CHECK(stopped.exit_code == 0);
-  CHECK(contains(stopped, "hinge_rig: 2 actuators are off and stay off"));
+  CHECK(contains(stopped, "hinge_rig: the plant keeps 2 actuators off"));
   CHECK(rig.graph.wait_for_output("emergency off by erp_stop"));
   const auto sent = run("erp send flexor force 12 --for 2s");
   CHECK(sent.exit_code == 1);

@@ -4,7 +4,8 @@
 #include <utility>
 #include <vector>
 
-/// Verbs that command a running robot from a terminal, through its plant. They return exit codes.
+/// Verbs that command a running robot from a terminal, through its plant. They return exit codes, and
+/// throw std::invalid_argument for wrong names and std::runtime_error if no robot is running.
 namespace launch {
 
 /// Above the controllers of the shipped graphs (0 to 10); chosen.
@@ -28,8 +29,8 @@ struct SendOptions {
   int priority = hand_priority;
   double for_s = 0;  ///< 0: until Ctrl-C
 };
-/// Commands actuators and prints what they measure; gives them up at the end. Returns 1 if another
-/// controller keeps an actuator, with its name and priority.
+/// Commands actuators and prints their measured values; releases them at the end. Throws
+/// std::runtime_error with the owner and its priority if another controller keeps an actuator.
 int send_command(const SendOptions& options, std::ostream& out);
 
 struct SetOptions {
@@ -37,8 +38,8 @@ struct SetOptions {
   std::vector<std::pair<std::string, double>> gains;
   int priority = hand_priority;
 };
-/// Changes gains of an actuator's ECU. Returns 0 when the ECU has accepted them; otherwise 1, and
-/// prints who refused them and why.
+/// Changes gains of an actuator's ECU. Returns 0 when the ECU has accepted them. Throws
+/// std::runtime_error with the reason if the plant or the ECU refuses them, or without an answer.
 int set_gains(const SetOptions& options, std::ostream& out);
 
 }  // namespace launch

@@ -10,7 +10,7 @@
 #include "launch/erp/inspect/discovery_listener.hpp"
 
 /// The connection of a verb to the running robots on the bus. It commands like a controller: through
-/// the plant, with a priority, and in answer to every frame.
+/// the plant and with a priority.
 namespace launch {
 
 class RobotLink {
@@ -35,7 +35,8 @@ class RobotLink {
   /// Calls `callback` at each message and at least every 50 ms, until it returns true, the duration
   /// has passed or a signal arrives. Returns false after a signal.
   bool watch(std::int64_t duration_ns, const std::function<bool()>& callback);
-  /// Waits until all robots on the bus are known. Throws std::runtime_error if there is none.
+  /// Collects the robots that publish within the discovery time + 0.3 s. Throws std::runtime_error if
+  /// there is none.
   void find_robots();
   /// The robot with this name; an empty name: the only one. Throws std::invalid_argument with the
   /// names of all robots.

@@ -55,6 +55,9 @@ std::string refusal(const RobotLink::Robot& robot, const std::vector<std::string
   for (const auto& actuator : actuators) {
     const auto* owner = robot.owner(actuator);
     if (!owner || controller == owner->owner) continue;
+    if (owner->priority == erp::emergency_priority)
+      return fmt::format("{}: {} keeps it off; release it with: erp stop --release", actuator,
+                         owner->owner);
     if (owner->owner[0])
       return fmt::format("{} is driven by {} with priority {}; raise --priority", actuator,
                          owner->owner, owner->priority);
@@ -66,10 +69,12 @@ std::string refusal(const RobotLink::Robot& robot, const std::vector<std::string
 void print_measured(const RobotLink::Robot& robot, const SendOptions& options, erp::Mode mode,
                     std::ostream& out) {
   const std::string unit = mode == erp::Mode::off ? "N" : erp::unit_of(mode);
+  const std::string commanded =
+      mode == erp::Mode::off ? "off"
+                             : fmt::format("{} {:.4g} {}", options.mode, options.reference, unit);
   for (const auto& actuator : options.actuators)
     if (const auto* sample = robot.sample(actuator))
-      out << fmt::format("{}: {} {:.4g} {}, measured {:.4g} {}\n", actuator, options.mode,
-                         options.reference, mode == erp::Mode::off ? "" : unit,
+      out << fmt::format("{}: {}, measured {:.4g} {}\n", actuator, commanded,
                          measured(*sample, mode), unit);
   out << std::flush;
 }

@@ -11,7 +11,7 @@ namespace {
 constexpr std::int64_t answer_timeout_ns =
     3'000'000'000;  // chosen: the plant waits 1 s for the ECU
 
-/// Counts that change when the gains are accepted or refused.
+/// Counts that change when gains or, of `refused_by_plant`, references are accepted or refused.
 struct Counts {
   int accepted = 0, refused_by_ecu = 0;
   unsigned refused_by_plant = 0;
@@ -22,6 +22,15 @@ Counts counts_of(const RobotLink::Robot& robot, const std::string& actuator) {
   const auto* owner = robot.owner(actuator);
   return {channel ? channel->gain_sets_accepted : 0, channel ? channel->gain_sets_refused : 0,
           owner ? owner->refused : 0};
+}
+
+/// The reason of the last refusal if it concerns these gains; empty: it concerns another command.
+std::string reason_for(const SetOptions& options, const erp::ActuatorOwnerSample& owner) {
+  const std::string reason = owner.reason;
+  bool concerns_gains = reason.find("refused gains") != reason.npos;
+  for (const auto& [parameter, value] : options.gains)
+    concerns_gains = concerns_gains || reason.find(parameter) != reason.npos;
+  return concerns_gains ? reason : "";
 }
 
 erp::GainCommand message_of(const SetOptions& options) {
@@ -56,7 +65,7 @@ int set_gains(const SetOptions& options, std::ostream& out) {
     accepted = now.accepted != before.accepted;
     if (now.refused_by_ecu != before.refused_by_ecu) refused = "its ECU refuses the gains";
     if (now.refused_by_plant != before.refused_by_plant)
-      refused = robot.owner(options.actuator)->reason;
+      refused = reason_for(options, *robot.owner(options.actuator));
     return accepted || !refused.empty();
   });
   if (!refused.empty()) throw std::runtime_error(options.actuator + ": " + refused);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int64_t confirm_timeout_ns = 2'000'000'000;  // chosen: 20 reports of the owners
 
-/// Whether the plant has reported every actuator as latched, or none.
+/// Whether the owner of every actuator has the emergency priority, or of none.
 bool is_confirmed(const RobotLink::Robot& robot, bool latched) {
   if (!robot.owners) return false;
   return std::ranges::all_of(erp::samples(robot.owners->actuators), [&](const auto& actuator) {
@@ -19,7 +19,7 @@ bool is_confirmed(const RobotLink::Robot& robot, bool latched) {
   });
 }
 
-/// Commands every robot at each frame until its plant confirms it. Returns the robots that did not.
+/// Commands every robot until its plant confirms it. Returns the robots that did not.
 std::set<std::string> command_all(RobotLink& link, const StopOptions& options) {
   std::set<std::string> open;
   for (const auto& [name, robot] : link.robots())
@@ -50,8 +50,8 @@ int stop_robots(const StopOptions& options, std::ostream& out) {
       out << name << ": its plant did not confirm within 2 s; switch the power off\n";
     else if (options.release) out << name << ": " << count << " actuators released\n";
     else
-      out << name << ": " << count
-          << " actuators are off and stay off; release them with: erp stop --release\n";
+      out << name << ": the plant keeps " << count
+          << " actuators off; release them with: erp stop --release\n";
   }
   return unconfirmed.empty() ? 0 : 1;
 }

@@ -68,17 +68,18 @@ void add_send(CLI::App& app, Chosen& chosen) {
 }
 
 void add_set(CLI::App& app, Chosen& chosen) {
-  auto* verb = app.add_subcommand("set",
-                                  "Change gains of an actuator's ECU: erp set flexor "
-                                  "length_gain_V_per_rad=3; within the limits "
-                                  "of robot.xml, until the plant restarts");
+  auto* verb = app.add_subcommand(
+      "set",
+      "Change gains of an actuator's ECU: erp set flexor "
+      "length_gain_V_per_rad=3; limits may only be lowered; until the plant restarts");
   auto options = std::make_shared<SetOptions>();
   auto words = std::make_shared<std::vector<std::string>>();
   verb->add_option("actuator", options->actuator, "actuator")->required();
   verb->add_option("gains", *words, "NAME=VALUE, with names of firmware/core/parameters.h")
       ->required();
   add_robot_option(*verb, options->robot, "the only one on the bus");
-  verb->add_option("--priority", options->priority, "as of commands")->capture_default_str();
+  verb->add_option("--priority", options->priority, "must exceed that of the actuator's owner")
+      ->capture_default_str();
   verb->callback([options, words, &chosen] {
     chosen = [options, words] {
       for (const std::string& word : *words) {

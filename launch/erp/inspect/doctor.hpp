@@ -14,7 +14,7 @@ struct Finding {
   std::string remedy;  ///< empty if good
 };
 
-/// Examines processes, bus, clocks, CAN interfaces and disk. `robot`: its robot.xml, to compare the
+/// Examines programs, real-time permission, network, bus, clocks, CAN interfaces and disk. `robot`: its robot.xml, to compare the
 /// bit rates of its buses; empty: none. Throws xml::Errors when it is wrong.
 std::vector<Finding> examine(const std::string& robot);
 

@@ -76,12 +76,12 @@ void print_joints(const std::vector<JointError>& errors, std::ostream& out) {
 void print_load(const ActuatorLoad& load, std::ostream& out) {
   if (load.saturated > reported_share)
     out << fmt::format(
-        "{}: its motor is saturated for {:.0f} % of the time: the reference is too fast, or the "
+        "{}: its motor is saturated for {:.0f} % of the time in which its ECU runs: the reference is too fast, or the "
         "load "
         "too large\n",
         load.actuator, 100 * load.saturated);
   if (load.slack > reported_share)
-    out << fmt::format("{}: its tendon is slack for {:.0f} % of the time\n", load.actuator,
+    out << fmt::format("{}: its tendon is slack for {:.0f} % of the time in which its ECU runs\n", load.actuator,
                        100 * load.slack);
 }
 

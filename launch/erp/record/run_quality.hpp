@@ -8,14 +8,14 @@
 #include "interfaces/recording/table.hpp"
 #include "interfaces/robot/robot.hpp"
 
-/// How well a robot did in a recording: limits that its actuators reached, and errors of its joints.
+/// Quality of a run from its recording: limits that actuators reached, and errors of joints.
 namespace launch {
 
 /// Shares of the rows in which the ECU of an actuator ran, 0 … 1.
 struct ActuatorLoad {
   std::string actuator;
   double saturated = 0;  ///< voltage at the supply voltage
-  double slack = 0;      ///< tension below 0.5 N or six times the noise of its sensor
+  double slack = 0;      ///< tension below the larger of 0.5 N and six times the sensor noise
 };
 std::vector<ActuatorLoad> actuator_loads(const recording::Table& table, const erp::Robot& robot);
 

@@ -15,10 +15,13 @@ class FrameWatch {
   void on_heartbeat(std::uint64_t steps, std::int64_t now_ns) {
     if (steps != steps_) steps_ = steps, advanced_ns_ = now_ns;
   }
-  /// `running`: every component is active and its process alive. Time in which this is false does
-  /// not count.
+  /// `running`: every component is active and its process alive. While it is false, nothing is
+  /// detected.
   Change update(bool running, std::int64_t now_ns) {
-    if (!running) advanced_ns_ = now_ns;
+    if (!running) {
+      advanced_ns_ = now_ns, stopped_ = false;
+      return Change::none;
+    }
     const bool stopped = now_ns - advanced_ns_ > limit_ns;
     if (stopped == stopped_) return Change::none;
     if (stopped) since_ns_ = advanced_ns_;

@@ -77,6 +77,7 @@ TEST_CASE("an emergency off stays the owner without its sender until a release o
   CHECK(arbiter.is_emergency_off());
   CHECK_FALSE(arbiter.update("stop", 0, Mode::force, 40, later_ns, stale_ns));
   arbiter.release("c", top - 1);
+  arbiter.release("stop", 0);
   CHECK(arbiter.winner(later_ns, stale_ns));
   arbiter.release("b", top);
   const auto* winner = arbiter.winner(later_ns, stale_ns);
@@ -87,6 +88,8 @@ TEST_CASE("an emergency off stays the owner without its sender until a release o
 TEST_CASE("a controller that releases an actuator is no longer its owner") {
   Arbiter arbiter;
   arbiter.update("a", 0, Mode::force, 40, start_ns, stale_ns);
+  REQUIRE(arbiter.winner(start_ns, stale_ns));
   arbiter.release("a", 0);
   CHECK_FALSE(arbiter.winner(start_ns, stale_ns));
+  CHECK(arbiter.is_released());
 }

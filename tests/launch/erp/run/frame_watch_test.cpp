@@ -34,6 +34,14 @@ TEST_CASE("frames that resume are reported with the next heartbeat") {
   CHECK(first_change_ms(Change::resumed, 5000, 2000, 4000) == 4000);
 }
 
+TEST_CASE("a component that ends while frames are missing is not a return of frames") {
+  FrameWatch watch;
+  watch.update(true, 0);
+  REQUIRE(watch.update(true, 900 * ns_per_ms) == Change::stopped);
+  CHECK(watch.update(false, 1000 * ns_per_ms) == Change::none);
+  CHECK(watch.update(true, 1100 * ns_per_ms) == Change::none);
+}
+
 TEST_CASE("frames every 100 ms, or a process that does not run, are not reported") {
   CHECK(first_change_ms(Change::stopped, 5000, 5000) == -1);
   CHECK(first_change_ms(Change::stopped, 5000, 2000, 1 << 30, false) == -1);
