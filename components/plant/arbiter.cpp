@@ -17,7 +17,7 @@ std::optional<std::size_t> Arbiter::replaceable(const ControllerCommand& by,
   for (std::size_t i = 0; i < commands_.size(); ++i) {
     const ControllerCommand& command = commands_[i];
     if (command.is_stale(by.received_ns, stale_ns)) return i;
-    const bool is_kept = owner_ == i && command.priority >= by.priority;
+    const bool is_kept = owner_ == i && command.priority >= by.priority && !by.is_emergency();
     if (!is_kept && (!lowest || command.rank() < commands_[*lowest].rank())) lowest = i;
   }
   if (lowest && commands_[*lowest].rank() >= by.rank()) lowest.reset();
@@ -54,8 +54,12 @@ const ControllerCommand* Arbiter::winner(std::int64_t now_ns, std::int64_t stale
     ControllerCommand& command = commands_[i];
     if (command.is_stale(now_ns, stale_ns)) command.in_use = false;
     if (!command.in_use) continue;
-    const bool is_higher = !winner || command.priority > commands_[*winner].priority;
-    if (is_higher || (command.priority == commands_[*winner].priority && owner_ == i)) winner = i;
+    const bool is_higher = !winner || command.priority > commands_[*winner].priority ||
+                           (command.is_emergency() && !commands_[*winner].is_emergency());
+    const bool stays_owner = winner && owner_ == i &&
+                             command.priority == commands_[*winner].priority &&
+                             command.is_emergency() == commands_[*winner].is_emergency();
+    if (is_higher || stays_owner) winner = i;
   }
   owner_ = winner;
   if (winner) released_ = false;

@@ -8,8 +8,8 @@
 #include "interfaces/emergency.hpp"
 #include "interfaces/values.hpp"
 
-/// Selects the owner of one actuator: of the controllers whose last command is not stale, the one
-/// with the highest priority; among equal priorities, the current owner.
+/// Selects the owner of one actuator: an emergency off, otherwise of the controllers whose last
+/// command is not stale the one with the highest priority; among equal priorities, the current owner.
 namespace plant {
 
 /// The last command of one controller for one actuator.

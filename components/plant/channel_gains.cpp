@@ -44,23 +44,31 @@ bool contains(const auto& list, ecu_parameter_index index) {
 
 }  // namespace
 
-std::string ChannelGains::propose(std::string_view parameter, double value) {
+std::string ChannelGains::refusal(std::string_view parameter, double value) const {
   const auto index = index_of(parameter);
   const std::string name(parameter), text = xml::Codec<double>::write(value);
   if (!index) return "there is no gain " + name;
-  if (!std::isfinite(value)) return name + " must be a number, got " + std::to_string(value);
+  const auto stored = static_cast<float>(value);
+  if (!std::isfinite(stored)) return name + " must be a number, got " + std::to_string(value);
   const float ceiling = designed_[*index];
   const bool is_limit = contains(limits, *index);
-  if (is_limit && ceiling > 0 && !(value > 0 && value <= ceiling))
+  // A larger continuous current would weaken the overload check of robot.xml.
+  const bool is_absent = ceiling == 0 && (*index != ECU_PARAMETER_CURRENT_CONTINUOUS ||
+                                          designed_[ECU_PARAMETER_OVERLOAD_LIMIT] == 0);
+  if (is_limit && !is_absent && !(stored > 0 && stored <= ceiling))
     return name + " must be above 0 and at most robot.xml's " + xml::Codec<float>::write(ceiling) +
            ", got " + text;
   const bool adds_sensor =
       contains(added_sensors, *index) && designed_[ECU_PARAMETER_TEMPERATURE_SCALE] == 0;
   if (!is_limit && !adds_sensor && !contains(law_gains, *index))
     return name + " is a constant of the robot; change it in robot.xml";
-  std::erase_if(next_, [&](const Value& other) { return other.index == *index; });
-  next_.push_back({static_cast<std::uint8_t>(*index), static_cast<float>(value)});
   return "";
+}
+
+void ChannelGains::propose(std::string_view parameter, double value) {
+  const auto index = static_cast<std::uint8_t>(*index_of(parameter));
+  std::erase_if(next_, [&](const Value& other) { return other.index == index; });
+  next_.push_back({index, static_cast<float>(value)});
 }
 
 ChannelGains::Result ChannelGains::finish(Result result) {

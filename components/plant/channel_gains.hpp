@@ -29,8 +29,10 @@ class ChannelGains {
   ChannelGains(std::uint8_t ecu, std::uint8_t channel, const sim::EcuParameters& designed)
       : ecu_(ecu), channel_(channel), designed_(designed), accepted_(designed) {}
 
-  /// Adds a value to the next set. Returns why it is refused; empty: it was added.
-  std::string propose(std::string_view parameter, double value);
+  /// Why a value is refused; empty: it is accepted.
+  std::string refusal(std::string_view parameter, double value) const;
+  /// Adds an accepted value to the next set.
+  void propose(std::string_view parameter, double value);
   /// Processes the report of the ECU: state, and counts of accepted and refused sets since its boot.
   Result observe(ecu_state state, std::uint8_t accepted, std::uint8_t refused, std::int64_t now_ns);
   bool is_booting() const { return booting_; }

@@ -122,6 +122,13 @@ const erp::SensorFrame& Plant::sense(const erp::EcuFrame& frame, std::int64_t no
   return frame_;
 }
 
+/// The emergency priority is reserved for mode off and release.
+static std::int32_t allowed_priority(std::int32_t priority, std::uint8_t mode) {
+  const bool is_reserved =
+      mode == erp::release_mode || mode == static_cast<std::uint8_t>(erp::Mode::off);
+  return is_reserved ? priority : std::min(priority, erp::emergency_priority - 1);
+}
+
 void Plant::receive(const erp::ActuatorCommand& command, std::int64_t now_ns) {
   for (const auto& reference : erp::samples(command.actuators)) {
     ActuatorChannel* addressed = nullptr;
@@ -130,7 +137,7 @@ void Plant::receive(const erp::ActuatorCommand& command, std::int64_t now_ns) {
     if (addressed && reference.mode == erp::release_mode)
       addressed->release(command.controller, command.priority);
     else if (addressed)
-      addressed->receive(command.controller, command.priority,
+      addressed->receive(command.controller, allowed_priority(command.priority, reference.mode),
                          static_cast<erp::Mode>(reference.mode), reference.reference, now_ns,
                          stale_ns_);
     else report_unknown(command.controller, reference.name);

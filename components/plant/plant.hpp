@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -92,7 +93,9 @@ class Plant {
   void report_unknown(const std::string& controller, const std::string& name);
   void observe_gains(std::size_t actuator, const erp::EcuChannelSample& counts,
                      std::int64_t now_ns);
-  void propose(const erp::GainCommand& command, const erp::GainValue& gain);
+  std::optional<std::size_t> index_of(const std::string& actuator) const;
+  std::string refusal(const erp::GainCommand& command, const erp::GainValue& gain) const;
+  void refuse(const std::string& actuator, const std::string& reason);
   void notice_changes();
   void notice_tendon(const ActuatorChannel& channel, Reported& reported);
   void notice_limb(std::size_t actuator);

@@ -1,4 +1,5 @@
 // The plant's part in the gains of the ECUs: who may change them, and what their ECUs answer.
+#include <set>
 #include <utility>
 
 #include "components/plant/plant.hpp"
@@ -36,24 +37,37 @@ void Plant::observe_gains(std::size_t actuator, const erp::EcuChannelSample& cou
   reported_[actuator].stays_in_boot = stays;
 }
 
-void Plant::propose(const erp::GainCommand& command, const erp::GainValue& gain) {
-  const std::string name = gain.name;
-  std::string refused = "there is no actuator " + name;
+std::optional<std::size_t> Plant::index_of(const std::string& actuator) const {
   for (std::size_t i = 0; i < channels_.size(); ++i)
-    if (channels_[i].name() == name)
-      refused = channels_[i].may_command(command.controller, command.priority)
-                    ? gains_[i].propose(gain.parameter, gain.value)
-                    : std::string(channels_[i].owner()) + " is the owner; refused gains from " +
-                          command.controller + " of equal or lower priority";
-  if (refused.empty()) return;
-  for (ActuatorChannel& channel : channels_)
-    if (channel.name() == name) channel.refuse_gains(refused);
-  if (refused_gains_.is_new(name + " " + refused))
-    notices_.push_back({erp::Severity::warning, name, "gain_refused", refused});
+    if (channels_[i].name() == actuator) return i;
+  return std::nullopt;
 }
 
+std::string Plant::refusal(const erp::GainCommand& command, const erp::GainValue& gain) const {
+  const auto actuator = index_of(gain.name);
+  if (!actuator) return std::string("there is no actuator ") + gain.name;
+  const ActuatorChannel& channel = channels_[*actuator];
+  if (!channel.may_command(command.controller, command.priority))
+    return std::string(channel.owner()) + " is the owner; refused gains from " +
+           command.controller + " of equal or lower priority";
+  return gains_[*actuator].refusal(gain.parameter, gain.value);
+}
+
+void Plant::refuse(const std::string& actuator, const std::string& reason) {
+  if (const auto index = index_of(actuator)) channels_[*index].refuse_gains(reason);
+  if (refused_gains_.is_new(actuator + " " + reason))
+    notices_.push_back({erp::Severity::warning, actuator, "gain_refused", reason});
+}
+
+/// If one value of an actuator is refused, all its values are.
 void Plant::receive(const erp::GainCommand& command) {
-  for (const auto& gain : erp::samples(command.gains)) propose(command, gain);
+  std::set<std::string> refused;
+  for (const auto& gain : erp::samples(command.gains))
+    if (const auto reason = refusal(command, gain); !reason.empty())
+      refused.insert(gain.name), refuse(gain.name, reason);
+  for (const auto& gain : erp::samples(command.gains))
+    if (!refused.contains(gain.name))
+      gains_[*index_of(gain.name)].propose(gain.parameter, gain.value);
 }
 
 const erp::EcuParameter& Plant::gains(std::int64_t now_ns, bool load) {

@@ -20,9 +20,6 @@ struct Rig {
     if (name == "hinge_rig") arguments.insert(arguments.end(), {"--set", "target.loop=true"});
     return arguments;
   }
-  bool owns(const std::string& owner) const {
-    return run("erp echo actuator_owner -n 1").output.find("owner: " + owner) != std::string::npos;
-  }
 };
 
 bool contains(const Outcome& outcome, const std::string& text) {
@@ -38,8 +35,8 @@ TEST_CASE("erp send drives an idle actuator, prints its tension and gives it up"
   CHECK(sent.exit_code == 0);
   CHECK(contains(sent, "flexor: force 12 N, measured 1"));
   CHECK(contains(sent, "released"));
-  CHECK(rig.graph.wait_for_output("flexor: driven by erp"));
-  CHECK_FALSE(rig.owns("erp"));
+  CHECK(rig.graph.wait_for_output("flexor: driven by erp_send_"));
+  CHECK(rig.graph.wait_for_output(" released it"));
   CHECK(rig.graph.stop() == 0);
 }
 
@@ -49,6 +46,30 @@ TEST_CASE("erp send to an actuator of a controller of higher priority names the 
   INFO(sent.output);
   CHECK(sent.exit_code == 1);
   CHECK(contains(sent, "flexor is driven by force_control with priority 0; raise --priority"));
+  rig.graph.stop();
+}
+
+TEST_CASE("the verbs also work in a lockstep graph") {
+  const Folder folder;
+  Background graph(
+      {"launch", "launch/idle.xml", "--lockstep", "--for", "60min", "--out", folder / "run"},
+      folder / "out.txt");
+  REQUIRE(graph.wait_for_output("all components are active"));
+  const auto sent = run("erp send flexor force 12 --for 1s");
+  INFO(sent.output);
+  CHECK(sent.exit_code == 0);
+  CHECK(run("erp set flexor length_gain_V_per_rad=3").exit_code == 0);
+  CHECK(run("erp stop").exit_code == 0);
+  graph.stop();
+}
+
+TEST_CASE("erp send ends with the fault of an ECU") {
+  Rig rig("idle");
+  REQUIRE(run("erp set flexor tension_limit_N=20 tension_trip_N=21").exit_code == 0);
+  const auto sent = run("erp send flexor force 60 --for 5s");
+  INFO(sent.output);
+  CHECK(sent.exit_code == 1);
+  CHECK(contains(sent, "flexor: its ECU has switched off with fault"));
   rig.graph.stop();
 }
 
@@ -64,6 +85,8 @@ TEST_CASE("wrong words of erp send and set are refused with the known names") {
   check("send flexor farce 1", "did you mean \"force\"");
   check("send flexor force much", "must be a number");
   check("send flexor force 1 --robot arm", "no robot \"arm\"");
+  check("send flexor off 5", "off has no value");
+  check("send flexor force 5 --priority 2147483647", "not in range");
   check("set flexor length_gain_V_per_rad", "is not NAME=VALUE");
   rig.graph.stop();
 }

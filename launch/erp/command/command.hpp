@@ -10,8 +10,6 @@ namespace launch {
 
 /// Above the controllers of the shipped graphs (0 to 10); chosen.
 inline constexpr int hand_priority = 50;
-/// Name of `erp send` and `erp set` as a controller: together they are one.
-inline constexpr const char* hand_controller = "erp";
 
 struct StopOptions {
   std::string robot;  ///< empty: every robot on the bus
@@ -36,7 +34,7 @@ int send_command(const SendOptions& options, std::ostream& out);
 struct SetOptions {
   std::string robot, actuator;
   std::vector<std::pair<std::string, double>> gains;
-  int priority = hand_priority;
+  int priority = hand_priority + 1;  ///< so that gains can be set while `erp send` drives
 };
 /// Changes gains of an actuator's ECU. Returns 0 when the ECU has accepted them. Throws
 /// std::runtime_error with the reason if the plant or the ECU refuses them, or without an answer.

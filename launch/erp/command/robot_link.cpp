@@ -60,9 +60,16 @@ bool RobotLink::watch(std::int64_t duration_ns, const std::function<bool()>& cal
 
 void RobotLink::find_robots() {
   constexpr std::int64_t margin_ns = 300'000'000;  // chosen: owners are published at 10 Hz
-  watch(node::discovery_ns() + margin_ns, [] { return false; });
+  node::Wake wake;
+  node::Peers peers(bus_.participant(), wake, node::own_peer(controller_, ""));
+  if (!watch(node::discovery_ns() + margin_ns, [] { return false; }))
+    throw std::runtime_error("interrupted");
+  peers.discover();
   std::erase_if(robots_, [](const auto& entry) { return !entry.second.frame.actuators._length; });
-  if (robots_.empty())
+  for (const auto& peer : peers.others())
+    if (peer.role == node::plant_role && !robots_.contains(peer.robot))
+      silent_robots_.insert(peer.robot);
+  if (robots_.empty() && silent_robots_.empty())
     throw std::runtime_error(
         "no robot is running on the bus; start a graph, or set ERP_DOMAIN to the domain of its "
         "launcher");
@@ -96,7 +103,8 @@ void RobotLink::command(const std::string& robot, const std::vector<std::string>
     added.reference = reference;
     erp::append(message.actuators, added);
   }
-  commands_.write(message);
+  if (!commands_) commands_.emplace(bus_.participant());
+  commands_->write(message);
 }
 
 void RobotLink::send(erp::GainCommand& gains, const std::string& robot, std::int32_t priority) {

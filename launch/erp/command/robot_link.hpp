@@ -1,6 +1,7 @@
 #pragma once
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -36,12 +37,14 @@ class RobotLink {
   /// has passed or a signal arrives. Returns false after a signal.
   bool watch(std::int64_t duration_ns, const std::function<bool()>& callback);
   /// Collects the robots that publish within the discovery time + 0.3 s. Throws std::runtime_error if
-  /// there is none.
+  /// there is none, or after a signal.
   void find_robots();
   /// The robot with this name; an empty name: the only one. Throws std::invalid_argument with the
   /// names of all robots.
   std::string choose(const std::string& name) const;
   std::map<std::string, Robot>& robots() { return robots_; }
+  /// Robots with a plant that publish no frame.
+  const std::set<std::string>& silent_robots() const { return silent_robots_; }
   Robot& robot(const std::string& name) { return robots_.at(name); }
 
   /// Sends one reference for each of the actuators; `mode`: erp::Mode or erp::release_mode.
@@ -54,12 +57,14 @@ class RobotLink {
 
   DiscoveryListener bus_;
   std::string controller_;
-  node::Writer<erp::ActuatorCommand> commands_{bus_.participant()};
+  /// Created with the first command: in lockstep the plant waits for every controller.
+  std::optional<node::Writer<erp::ActuatorCommand>> commands_;
   node::Writer<erp::GainCommand> gains_{bus_.participant()};
   node::Reader<erp::SensorFrame> frames_{bus_.participant(), bus_.wake()};
   node::Reader<erp::ActuatorOwner> owners_{bus_.participant(), bus_.wake()};
   node::Reader<erp::EcuFrame> ecus_{bus_.participant(), bus_.wake()};
   std::map<std::string, Robot> robots_;
+  std::set<std::string> silent_robots_;
 };
 
 /// The names of all actuators of a robot.

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <ostream>
@@ -13,8 +14,8 @@
 namespace launch {
 namespace {
 
-constexpr std::int64_t print_period_ns = 500'000'000;     // chosen
-constexpr std::int64_t owner_timeout_ns = 1'000'000'000;  // chosen: 10 reports of the owners
+constexpr std::int64_t print_period_ns = 500'000'000;        // chosen
+constexpr std::int64_t obstacle_timeout_ns = 1'000'000'000;  // chosen: 10 reports of the owners
 constexpr std::int64_t forever_ns = std::int64_t{1} << 62;
 
 erp::Mode mode_of(const std::string& name) {
@@ -49,20 +50,31 @@ void check_actuators(const RobotLink::Robot& robot, const std::vector<std::strin
                                   xml::did_you_mean(actuator, actuators_of(robot)));
 }
 
-/// Who keeps an actuator from this verb; empty: nobody.
-std::string refusal(const RobotLink::Robot& robot, const std::vector<std::string>& actuators,
-                    const std::string& controller) {
-  for (const auto& actuator : actuators) {
-    const auto* owner = robot.owner(actuator);
-    if (!owner || controller == owner->owner) continue;
-    if (owner->priority == erp::emergency_priority)
-      return fmt::format("{}: {} keeps it off; release it with: erp stop --release", actuator,
-                         owner->owner);
-    if (owner->owner[0])
-      return fmt::format("{} is driven by {} with priority {}; raise --priority", actuator,
-                         owner->owner, owner->priority);
-    return fmt::format("{}: the plant refuses the command: {}", actuator, owner->reason);
-  }
+/// Why an actuator does not follow; empty: it does.
+std::string obstacle(const RobotLink::Robot& robot, const std::string& actuator,
+                     const std::string& controller, erp::Mode mode) {
+  const auto* owner = robot.owner(actuator);
+  const auto* sample = robot.sample(actuator);
+  if (!owner || !sample) return "";
+  if (owner->priority == erp::emergency_priority)
+    return fmt::format("{}: {} keeps it off; release it with: erp stop --release", actuator,
+                       owner->owner);
+  if (owner->owner[0] && controller != owner->owner)
+    return fmt::format("{} is driven by {} with priority {}; raise --priority", actuator,
+                       owner->owner, owner->priority);
+  if (mode != erp::Mode::off &&
+      sample->ecu_state == static_cast<std::uint8_t>(erp::EcuState::fault))
+    return fmt::format("{0}: its ECU has switched off with fault {1}; erp send {0} off clears it",
+                       actuator, sample->ecu_fault);
+  if (owner->owner[0]) return "";
+  return fmt::format("{}: the plant does not follow the command; {}", actuator,
+                     owner->reason[0] ? owner->reason : "it has no owner");
+}
+
+std::string first_obstacle(const RobotLink::Robot& robot, const SendOptions& options,
+                           const std::string& controller, erp::Mode mode) {
+  for (const auto& actuator : options.actuators)
+    if (auto found = obstacle(robot, actuator, controller, mode); !found.empty()) return found;
   return "";
 }
 
@@ -79,32 +91,40 @@ void print_measured(const RobotLink::Robot& robot, const SendOptions& options, e
   out << std::flush;
 }
 
+/// Commands until the end or an obstacle that lasts; returns that obstacle.
+std::string drive(RobotLink& link, const std::string& name, const SendOptions& options,
+                  erp::Mode mode, std::ostream& out) {
+  const RobotLink::Robot& robot = link.robot(name);
+  std::int64_t followed_ns = node::monotonic_ns(), printed_ns = followed_ns;
+  std::string obstacle;
+  const bool is_limited = options.for_s > 0 && options.for_s < 1e-9 * double(forever_ns);
+  link.watch(is_limited ? static_cast<std::int64_t>(1e9 * options.for_s) : forever_ns, [&] {
+    link.command(name, options.actuators, static_cast<std::uint8_t>(mode), options.reference,
+                 options.priority);
+    const std::int64_t now_ns = node::monotonic_ns();
+    obstacle = first_obstacle(robot, options, link.controller(), mode);
+    if (obstacle.empty()) followed_ns = now_ns;
+    if (now_ns - printed_ns >= print_period_ns) {
+      printed_ns = now_ns;
+      print_measured(robot, options, mode, out);
+    }
+    return now_ns - followed_ns > obstacle_timeout_ns;
+  });
+  return node::monotonic_ns() - followed_ns > obstacle_timeout_ns ? obstacle : "";
+}
+
 }  // namespace
 
 int send_command(const SendOptions& options, std::ostream& out) {
   const erp::Mode mode = mode_of(options.mode);
-  RobotLink link("send", hand_controller);
+  RobotLink link("send", "erp_send_" + std::to_string(getpid()));
   link.find_robots();
   const std::string name = link.choose(options.robot);
-  RobotLink::Robot& robot = link.robot(name);
-  check_actuators(robot, options.actuators);
-  const std::int64_t start_ns = node::monotonic_ns();
-  std::int64_t printed_ns = start_ns;
-  std::string refused;
-  link.watch(options.for_s > 0 ? static_cast<std::int64_t>(1e9 * options.for_s) : forever_ns, [&] {
-    link.command(name, options.actuators, static_cast<std::uint8_t>(mode), options.reference,
-                 options.priority);
-    const std::int64_t now_ns = node::monotonic_ns();
-    if (now_ns - start_ns > owner_timeout_ns)
-      refused = refusal(robot, options.actuators, link.controller());
-    if (now_ns - printed_ns < print_period_ns) return !refused.empty();
-    printed_ns = now_ns;
-    print_measured(robot, options, mode, out);
-    return !refused.empty();
-  });
+  check_actuators(link.robot(name), options.actuators);
+  const std::string obstacle = drive(link, name, options, mode, out);
   link.command(name, options.actuators, erp::release_mode, 0, options.priority);
   link.watch(print_period_ns / 10, [] { return false; });  // until the release has been delivered
-  if (!refused.empty()) throw std::runtime_error(refused);
+  if (!obstacle.empty()) throw std::runtime_error(obstacle);
   out << "released\n";
   return 0;
 }

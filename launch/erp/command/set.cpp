@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <ostream>
 #include <stdexcept>
 
@@ -48,7 +50,7 @@ erp::GainCommand message_of(const SetOptions& options) {
 }  // namespace
 
 int set_gains(const SetOptions& options, std::ostream& out) {
-  RobotLink link("set", hand_controller);
+  RobotLink link("set", "erp_set_" + std::to_string(getpid()));
   link.find_robots();
   const std::string name = link.choose(options.robot);
   RobotLink::Robot& robot = link.robot(name);

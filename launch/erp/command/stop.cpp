@@ -41,7 +41,8 @@ std::set<std::string> command_all(RobotLink& link, const StopOptions& options) {
 int stop_robots(const StopOptions& options, std::ostream& out) {
   RobotLink link("stop", "erp_stop");
   link.find_robots();
-  if (!options.robot.empty()) link.choose(options.robot);
+  if (!options.robot.empty() && !link.silent_robots().contains(options.robot))
+    link.choose(options.robot);
   const auto unconfirmed = command_all(link, options);
   for (auto& [name, robot] : link.robots()) {
     if (!options.robot.empty() && name != options.robot) continue;
@@ -53,7 +54,10 @@ int stop_robots(const StopOptions& options, std::ostream& out) {
       out << name << ": the plant keeps " << count
           << " actuators off; release them with: erp stop --release\n";
   }
-  return unconfirmed.empty() ? 0 : 1;
+  for (const auto& name : link.silent_robots())
+    if (options.robot.empty() || name == options.robot)
+      out << name << ": not commanded, because its device sends no frames; switch the power off\n";
+  return unconfirmed.empty() && link.silent_robots().empty() ? 0 : 1;
 }
 
 }  // namespace launch

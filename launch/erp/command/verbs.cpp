@@ -2,15 +2,21 @@
 
 #include <charconv>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 
+#include "interfaces/emergency.hpp"
 #include "interfaces/xml/values.hpp"
 #include "launch/erp/command/command.hpp"
 #include "launch/erp/text/duration.hpp"
 
 namespace launch {
 namespace {
+
+CLI::Validator below_emergency() {
+  return CLI::Range(std::numeric_limits<int>::min(), erp::emergency_priority - 1).description("");
+}
 
 void add_robot_option(CLI::App& verb, std::string& robot, const char* default_text) {
   verb.add_option("--robot", robot,
@@ -47,6 +53,7 @@ void add_send(CLI::App& app, Chosen& chosen) {
       ->expected(2, 64);
   add_robot_option(*verb, options->robot, "the only one on the bus");
   verb->add_option("--priority", options->priority, "the controller of highest priority drives")
+      ->check(below_emergency())
       ->capture_default_str();
   verb->add_option("--for", *duration, "duration: 20s, 500ms, 2min … (default: until Ctrl-C)");
   verb->callback([options, words, duration, &chosen] {
@@ -59,6 +66,7 @@ void add_send(CLI::App& app, Chosen& chosen) {
         words->pop_back();
       }
       options->mode = words->back();
+      if (!is_off && options->mode == "off") throw std::invalid_argument("send: off has no value");
       words->pop_back();
       options->actuators = *words;
       if (!duration->empty()) options->for_s = parse_duration_s(*duration);
@@ -79,6 +87,7 @@ void add_set(CLI::App& app, Chosen& chosen) {
       ->required();
   add_robot_option(*verb, options->robot, "the only one on the bus");
   verb->add_option("--priority", options->priority, "must exceed that of the actuator's owner")
+      ->check(below_emergency())
       ->capture_default_str();
   verb->callback([options, words, &chosen] {
     chosen = [options, words] {

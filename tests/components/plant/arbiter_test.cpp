@@ -85,6 +85,14 @@ TEST_CASE("an emergency off stays the owner without its sender until a release o
   CHECK(winner->mode == Mode::force);
 }
 
+TEST_CASE("an emergency off becomes the owner of an actuator of an owner with the same priority") {
+  constexpr auto top = erp::emergency_priority;
+  Arbiter arbiter = full_table(top, start_ns);
+  REQUIRE(arbiter.update("stop", top, Mode::off, 0, start_ns, stale_ns));
+  arbiter.winner(start_ns, stale_ns);
+  CHECK(arbiter.is_emergency_off());
+}
+
 TEST_CASE("a controller that releases an actuator is no longer its owner") {
   Arbiter arbiter;
   arbiter.update("a", 0, Mode::force, 40, start_ns, stale_ns);

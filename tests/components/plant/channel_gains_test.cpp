@@ -50,26 +50,53 @@ std::vector<plant::Notice> set_gain(Bench& bench, const char* controller, int pr
 
 TEST_CASE("a gain of a law may have any value; a limit may be lowered to above 0, but not raised") {
   ChannelGains gains(0, 0, designed());
-  CHECK(gains.propose("force_gain_V_per_N", -3) == "");
-  CHECK(gains.propose("tension_trip_N", 100) == "");
-  CHECK(gains.propose("tension_trip_N", 500).find("at most robot.xml's 180") != std::string::npos);
-  CHECK(gains.propose("current_limit_A", 0).find("above 0") != std::string::npos);
-  CHECK(gains.propose("current_limit_A", 4.1).find("at most robot.xml's 4") != std::string::npos);
+  CHECK(gains.refusal("force_gain_V_per_N", -3) == "");
+  CHECK(gains.refusal("tension_trip_N", 100) == "");
+  CHECK(gains.refusal("tension_trip_N", 500).find("at most robot.xml's 180") != std::string::npos);
+  CHECK(gains.refusal("current_limit_A", 0).find("above 0") != std::string::npos);
+  CHECK(gains.refusal("current_limit_A", 4.1).find("at most robot.xml's 4") != std::string::npos);
 }
 
 TEST_CASE("a check that robot.xml leaves out may be added") {
   ChannelGains gains(0, 0, designed());
-  CHECK(gains.propose("temperature_C_per_count", 0.1) == "");
-  CHECK(gains.propose("temperature_trip_C", 90) == "");
-  CHECK(gains.propose("overload_A2_s", 20) == "");
+  CHECK(gains.refusal("temperature_C_per_count", 0.1) == "");
+  CHECK(gains.refusal("temperature_trip_C", 90) == "");
+  CHECK(gains.refusal("overload_A2_s", 20) == "");
+}
+
+TEST_CASE(
+    "the overload check of robot.xml can be neither switched off by a tiny limit nor weakened") {
+  auto parameters = designed();
+  parameters[ECU_PARAMETER_OVERLOAD_LIMIT] = 1;
+  const ChannelGains gains(0, 0, parameters);
+  CHECK_FALSE(gains.refusal("overload_A2_s", 1e-60).empty());
+  CHECK_FALSE(gains.refusal("current_continuous_A", 1000).empty());
+  CHECK(gains.refusal("overload_A2_s", 0.5).empty());
+}
+
+TEST_CASE("one refused value refuses all values of its actuator") {
+  Bench bench;
+  erp::GainCommand command;
+  for (const auto& [parameter, value] : {std::pair{"length_gain_V_per_rad", 3.0}, {"charm", 1.0}}) {
+    erp::GainValue gain{};
+    erp::assign(gain.name, "flexor");
+    erp::assign(gain.parameter, parameter);
+    gain.value = value;
+    erp::append(command.gains, gain);
+  }
+  bench.ecu_reports(ECU_STATE_BOOT);
+  bench.now_ns += 1000 * ms;
+  bench.ecu_reports(ECU_STATE_IDLE);
+  bench.plant.receive(command);
+  CHECK(bench.plant.gains(bench.now_ns, false).values._length == 0);
 }
 
 TEST_CASE("scales, unknown names and values that are not numbers are refused") {
   ChannelGains gains(0, 0, designed());
-  CHECK(gains.propose("shaft_rad_per_count", 1).find("robot.xml") != std::string::npos);
-  CHECK(gains.propose("tension_N_per_count", 1).find("robot.xml") != std::string::npos);
-  CHECK(gains.propose("charm", 1) == "there is no gain charm");
-  CHECK(gains.propose("length_gain_V_per_rad", NAN).find("must be a number") != std::string::npos);
+  CHECK(gains.refusal("shaft_rad_per_count", 1).find("robot.xml") != std::string::npos);
+  CHECK(gains.refusal("tension_N_per_count", 1).find("robot.xml") != std::string::npos);
+  CHECK(gains.refusal("charm", 1) == "there is no gain charm");
+  CHECK(gains.refusal("length_gain_V_per_rad", NAN).find("must be a number") != std::string::npos);
 }
 
 TEST_CASE("a set replaces the accepted gains only when the ECU has accepted it") {
