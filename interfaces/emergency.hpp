@@ -2,9 +2,10 @@
 #include <cstdint>
 #include <limits>
 
-/// The emergency off. A command of mode off with this priority is latched by the plant: the actuator
-/// stays off, whatever other controllers command and whether its sender still runs, until a command
-/// of mode `release_mode` with this priority.
+/// The emergency off. The plant latches a command of mode off with this priority: the actuator stays
+/// off, whatever other controllers command and whether its sender still runs, until a command of mode
+/// `release_mode` with this priority, or a restart of the plant. Commands of other modes with this
+/// priority are processed with the next lower one.
 namespace erp {
 
 inline constexpr std::int32_t emergency_priority = std::numeric_limits<std::int32_t>::max();
