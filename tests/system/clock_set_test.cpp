@@ -7,6 +7,7 @@
 #include <regex>
 
 #include "interfaces/recording/table.hpp"
+#include "tests/stalls.hpp"
 #include "tests/system/background.hpp"
 #include "tests/system/recorded.hpp"
 
@@ -105,36 +106,62 @@ std::vector<double> reported_steps_s(const std::string& recording) {
 
 }  // namespace
 
-TEST_CASE(
-    "a running graph continues when the clock is set back by 5 s, by 2 s and forward by 3 s") {
-  Rig rig;
+namespace {
+
+constexpr double set_by_s[]{-5, 3, -2, 3, -5};
+
+/// Runs the graph while its clock is set. Returns reports of losses, which a busy computer can also
+/// cause.
+Findings run_while_clock_is_set(Rig& rig) {
   REQUIRE(rig.graph.wait_for_output("all components are active"));
   std::this_thread::sleep_for(1s);
-  const std::vector<double> set_by_s{-5, 3, -2, 3, -5};
   for (const double step_s : set_by_s) {
     rig.clock.set_by(step_s);
     std::this_thread::sleep_for(700ms);  // rising, falling and constant references
   }
   CHECK(rig.graph.stop() == 0);
-  INFO(rig.graph.output());
-  for (const auto& word :
+  Findings reported;
+  for (const std::string word :
        {"lost", "no frame", "stale", "slack", "restart", "missing", "without an owner"})
-    CHECK_FALSE(rig.reports(word));
+    if (rig.reports(word)) reported.push_back("reported \"" + word + "\":\n" + rig.graph.output());
+  return reported;
+}
+
+void check_recording(const Rig& rig) {
   const auto table = recording::read_table(rig.recording(), {});
   CHECK(largest_rate_ratio(table) < 1);
   const auto& time_s = table.columns.front().values;
   CHECK(std::ranges::is_sorted(time_s));
   CHECK(time_s.back() < 9);  // with the steps forward: more than 10 s
-  CHECK(rig.owned_at_end() == 2);
   const auto steps_s = reported_steps_s(rig.recording());
-  REQUIRE(steps_s.size() == 5);
-  for (std::size_t k = 0; k < 5; ++k) CHECK(steps_s[k] == Approx(set_by_s[k]).margin(0.05));
-  const auto replayed = run("erp launch " + rig.folder / "graph.xml" + " --device replay:" +
-                            rig.recording() + " --lockstep --out " + rig.folder / "again");
+  REQUIRE(steps_s.size() == std::size(set_by_s));
+  for (std::size_t k = 0; k < steps_s.size(); ++k)
+    CHECK(steps_s[k] == Approx(set_by_s[k]).margin(0.05));
+}
+
+void check_replay(const Rig& rig) {
+  const auto replayed =
+      run("erp launch " + rig.folder / "graph.xml" + " --device replay:" + rig.recording() +
+          " --lockstep --out " + rig.folder / "again");
   INFO(replayed.output);
   CHECK(replayed.exit_code == 0);
   CHECK(replayed.output.find("s after the first frame; the frames are played without this step") !=
         std::string::npos);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a running graph continues when the clock is set back by 5 s, by 2 s and forward by 3 s") {
+  in_real_time([] {
+    Rig rig;
+    const Findings reported = run_while_clock_is_set(rig);
+    if (!reported.empty()) return reported;
+    CHECK(rig.owned_at_end() == 2);
+    check_recording(rig);
+    check_replay(rig);
+    return reported;
+  });
 }
 
 TEST_CASE("the command of a stopped controller stays stale when the clock is set") {
