@@ -9,7 +9,8 @@ namespace {
 
 constexpr double slack_sigmas =
     6;  // chosen: so that noise does not make a slack tendon appear taut
-/// Longest interval over which a rate limit is applied; chosen: ECUs are silent for less than 50 ms.
+/// Longest interval over which a rate limit is applied. Chosen: after 50 ms without a command the ECUs
+/// have switched off.
 constexpr double max_interval_s = 0.05;
 
 TendonMonitor::Params tendon_params(const erp::SensorType& sensors, const Plant::Params& params) {
@@ -122,6 +123,12 @@ const erp::SensorFrame& Plant::sense(const erp::EcuFrame& frame, std::int64_t no
   return frame_;
 }
 
+std::optional<std::size_t> Plant::index_of(std::string_view actuator) const {
+  for (std::size_t i = 0; i < channels_.size(); ++i)
+    if (channels_[i].name() == actuator) return i;
+  return std::nullopt;
+}
+
 /// The emergency priority is reserved for mode off and release.
 static std::int32_t allowed_priority(std::int32_t priority, std::uint8_t mode) {
   const bool is_reserved =
@@ -131,16 +138,17 @@ static std::int32_t allowed_priority(std::int32_t priority, std::uint8_t mode) {
 
 void Plant::receive(const erp::ActuatorCommand& command, std::int64_t now_ns) {
   for (const auto& reference : erp::samples(command.actuators)) {
-    ActuatorChannel* addressed = nullptr;
-    for (auto& channel : channels_)
-      if (channel.name() == reference.name) addressed = &channel;
-    if (addressed && reference.mode == erp::release_mode)
-      addressed->release(command.controller, command.priority);
-    else if (addressed)
-      addressed->receive(command.controller, allowed_priority(command.priority, reference.mode),
-                         static_cast<erp::Mode>(reference.mode), reference.reference, now_ns,
-                         stale_ns_);
-    else report_unknown(command.controller, reference.name);
+    const auto index = index_of(reference.name);
+    if (!index) {
+      report_unknown(command.controller, reference.name);
+      continue;
+    }
+    ActuatorChannel& channel = channels_[*index];
+    if (reference.mode == erp::release_mode) channel.release(command.controller, command.priority);
+    else
+      channel.receive(command.controller, allowed_priority(command.priority, reference.mode),
+                      static_cast<erp::Mode>(reference.mode), reference.reference, now_ns,
+                      stale_ns_);
   }
 }
 

@@ -93,7 +93,7 @@ class Plant {
   void report_unknown(const std::string& controller, const std::string& name);
   void observe_gains(std::size_t actuator, const erp::EcuChannelSample& counts,
                      std::int64_t now_ns);
-  std::optional<std::size_t> index_of(const std::string& actuator) const;
+  std::optional<std::size_t> index_of(std::string_view actuator) const;
   std::string refusal(const erp::GainCommand& command, const erp::GainValue& gain) const;
   void refuse(const std::string& actuator, const std::string& reason);
   void notice_changes();

@@ -37,12 +37,6 @@ void Plant::observe_gains(std::size_t actuator, const erp::EcuChannelSample& cou
   reported_[actuator].stays_in_boot = stays;
 }
 
-std::optional<std::size_t> Plant::index_of(const std::string& actuator) const {
-  for (std::size_t i = 0; i < channels_.size(); ++i)
-    if (channels_[i].name() == actuator) return i;
-  return std::nullopt;
-}
-
 std::string Plant::refusal(const erp::GainCommand& command, const erp::GainValue& gain) const {
   const auto actuator = index_of(gain.name);
   if (!actuator) return std::string("there is no actuator ") + gain.name;

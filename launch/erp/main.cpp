@@ -19,6 +19,7 @@ void add_verbs(CLI::App& app, Chosen& chosen) {
   add_launch(app, chosen);
   add_check(app, chosen);
   add_help(app, chosen);
+  add_doctor(app, chosen);
   add_command(app, chosen);
   add_graph_view(app, chosen);
   add_topic_view(app, chosen);

@@ -1,5 +1,6 @@
 // erp send, set and stop command a running robot from another terminal.
 #include <catch2/catch.hpp>
+#include <regex>
 
 #include "tests/system/background.hpp"
 
@@ -46,7 +47,10 @@ TEST_CASE("erp send to an actuator of a controller of higher priority names the 
   INFO(sent.output);
   CHECK(sent.exit_code == 1);
   CHECK(contains(sent, "flexor is driven by force_control with priority 0; raise --priority"));
-  rig.graph.stop();
+  CHECK(rig.graph.stop() == 0);
+  const std::regex refusals(
+      "flexor: [0-9]+ references limited, [1-9][0-9]* refused: another controller");
+  CHECK(std::regex_search(rig.graph.output(), refusals));  // in the summary of the run
 }
 
 TEST_CASE("the verbs also work in a lockstep graph") {

@@ -67,9 +67,10 @@ void examine_system(Findings& findings) {
   if (node::may_run_in_real_time())
     findings.push_back({Grade::good, "real-time priority", "permitted", ""});
   else
-    findings.push_back({Grade::warning, "real-time priority", "not permitted",
-                        "raise ulimit -r to 20 (README.md, Run on hardware): on a busy machine "
-                        "control loops miss deadlines"});
+    findings.push_back(
+        {Grade::warning, "real-time priority", "not permitted",
+         "set ulimit -r to 20 (README.md, Run on hardware); without it, on a busy machine "
+         "control loops miss deadlines"});
 }
 
 void examine_network(Findings& findings) {
@@ -120,8 +121,8 @@ void examine_clocks(Findings& findings) {
     findings.push_back({Grade::good, "wall clock", "synchronized by a time service", ""});
   else
     findings.push_back({Grade::warning, "wall clock", "not synchronized by a time service",
-                        "install chrony; only stamps for people, and a robot of several "
-                        "computers, need it"});
+                        "install chrony; needed for correct dates, and for a robot of several "
+                        "computers"});
   const std::string source =
       first_line("/sys/devices/system/clocksource/clocksource0/current_clocksource");
   findings.push_back({Grade::good, "monotonic clock", source.empty() ? "present" : source, ""});
@@ -143,7 +144,8 @@ void examine_can(Findings& findings) {
     if (flags & IFF_UP) findings.push_back({Grade::good, "CAN " + name, "up, " + rate, ""});
     else
       findings.push_back({Grade::problem, "CAN " + name, "down",
-                          "sudo ip link set " + name + " up type can bitrate 1000000"});
+                          "sudo ip link set " + name +
+                              (name.starts_with("vcan") ? " up" : " up type can bitrate 1000000")});
   }
   if (count) return;
   findings.push_back({Grade::warning, "CAN", "no interface",
@@ -182,7 +184,8 @@ void examine_disk(Findings& findings) {
   if (!error && free_GB >= min_free_GB) findings.push_back({Grade::good, "disk", state, ""});
   else
     findings.push_back({Grade::problem, "disk", error ? error.message() : state,
-                        "recordings stop when it is full: delete old runs in erp_runs"});
+                        error ? "change to a folder that can be read"
+                              : "recordings stop when it is full: delete old runs in erp_runs"});
 }
 
 const char* word(Grade grade) {

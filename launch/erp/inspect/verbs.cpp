@@ -89,7 +89,7 @@ void add_help(CLI::App& app, Chosen& chosen) {
   });
 }
 
-static void add_doctor(CLI::App& app, Chosen& chosen) {
+void add_doctor(CLI::App& app, Chosen& chosen) {
   auto* verb = app.add_subcommand(
       "doctor", "Check whether this computer can run a robot: bus, real time, CAN, clocks, disk");
   auto robot = std::make_shared<std::string>();
@@ -98,7 +98,6 @@ static void add_doctor(CLI::App& app, Chosen& chosen) {
 }
 
 void add_graph_view(CLI::App& app, Chosen& chosen) {
-  add_doctor(app, chosen);
   app.add_subcommand("ps", "List components on the bus: state, rate, age of their input, jitter")
       ->callback([&chosen] { chosen = [] { return show_components(std::cout); }; });
   app.add_subcommand("ls", "List topics on the bus: type, writers, readers")->callback([&chosen] {

@@ -76,13 +76,14 @@ void print_joints(const std::vector<JointError>& errors, std::ostream& out) {
 void print_load(const ActuatorLoad& load, std::ostream& out) {
   if (load.saturated > reported_share)
     out << fmt::format(
-        "{}: its motor is saturated for {:.0f} % of the time in which its ECU runs: the reference is too fast, or the "
+        "{}: its motor is saturated for {:.0f} % of the time in which its ECU runs: the reference "
+        "is too fast, or the "
         "load "
         "too large\n",
         load.actuator, 100 * load.saturated);
   if (load.slack > reported_share)
-    out << fmt::format("{}: its tendon is slack for {:.0f} % of the time in which its ECU runs\n", load.actuator,
-                       100 * load.slack);
+    out << fmt::format("{}: its tendon is slack for {:.0f} % of the time in which its ECU runs\n",
+                       load.actuator, 100 * load.slack);
 }
 
 }  // namespace
@@ -105,24 +106,28 @@ std::vector<ActuatorLoad> actuator_loads(const recording::Table& table, const er
 
 std::vector<LimitedReferences> limited_references(const recording::McapReader& recording,
                                                   const std::string& robot) {
-  std::optional<recording::Members> last;
+  recording::TypeDescription type;
+  recording::Bytes last;  // the last message of the robot
   recording.for_each(
       [&](const recording::Message& message) {
         if (message.channel.topic != "actuator_owner") return;
-        const auto& schema = recording.schemas().at(message.channel.schema_id);
-        auto members =
-            recording::decode_cdr(recording::parse_ros2msg(schema.name, schema.data), message.data);
-        if (recording::text_in(members, "robot") == robot) last = std::move(members);
+        if (type.structures.empty()) {
+          const auto& schema = recording.schemas().at(message.channel.schema_id);
+          type = recording::parse_ros2msg(schema.name, schema.data);
+        }
+        if (recording::header_of(type, message.data).robot == robot)
+          last.assign(message.data.begin(), message.data.end());
       },
       recording::Order::file);
   std::vector<LimitedReferences> all;
-  if (!last) return all;
-  recording::each_in(*last, "actuators", [&](const recording::Members& sample) {
-    const LimitedReferences counts{recording::text_in(sample, "name"),
-                                   recording::text_in(sample, "reason"),
-                                   count_in(sample, "limited"), count_in(sample, "refused")};
-    if (counts.limited || counts.refused) all.push_back(counts);
-  });
+  if (last.empty()) return all;
+  recording::each_in(
+      recording::decode_cdr(type, last), "actuators", [&](const recording::Members& sample) {
+        const LimitedReferences counts{recording::text_in(sample, "name"),
+                                       recording::text_in(sample, "reason"),
+                                       count_in(sample, "limited"), count_in(sample, "refused")};
+        if (counts.limited || counts.refused) all.push_back(counts);
+      });
   return all;
 }
 

@@ -40,8 +40,7 @@ struct RecordedRun {
       -1;  ///< time since all components became active; negative: the device never ran
 };
 /// Prints the file names; of the last file the tracking errors, step responses, joint errors and the
-/// limits that actuators reached (run_quality.hpp). Returns 0,
-/// or 1 if that file cannot be read.
+/// limits that actuators reached (run_quality.hpp). Returns 0, or 1 if that file cannot be read.
 int print_summary(const RecordedRun& run, std::ostream& out);
 
 }  // namespace launch

@@ -10,21 +10,22 @@ namespace launch {
 namespace {
 
 /// A parameter that names the source of an input. `of_simulator`: its value, also by default, that
-/// means the simulator.
+/// means the simulator. If that is empty, other values name files, otherwise a component.
 struct SourceParameter {
-  const char* type;
-  const char* parameter;
-  const char* of_simulator;
-  const char* input;
+  const char *type, *parameter, *of_simulator, *input, *remedy;
 };
+constexpr auto angles_remedy =
+    "add a <component> pose_estimator or motion_capture, and set source to its name";
+constexpr auto images_remedy = "set images to the files of its cameras";
 constexpr std::array source_parameters{
-    SourceParameter{"computed_force", "source", "sim", "joint angles"},
-    SourceParameter{"puller_follower", "source", "sim", "joint angles"},
-    SourceParameter{"experience", "source", "sim", "joint angles"},
-    SourceParameter{"joint_target", "source", "sim", "joint angles"},
-    SourceParameter{"synergy", "source", "sim", "body poses"},
-    SourceParameter{"motion_capture", "images", "", "images"},
-    SourceParameter{"eye", "images", "", "images"},
+    SourceParameter{"computed_force", "source", "sim", "joint angles", angles_remedy},
+    SourceParameter{"puller_follower", "source", "sim", "joint angles", angles_remedy},
+    SourceParameter{"experience", "source", "sim", "joint angles", angles_remedy},
+    SourceParameter{"joint_target", "source", "sim", "joint angles", angles_remedy},
+    SourceParameter{"synergy", "source", "sim", "body poses",
+                    "add a <component> motion_capture, and set source to its name"},
+    SourceParameter{"motion_capture", "images", "", "images", images_remedy},
+    SourceParameter{"eye", "images", "", "images", images_remedy},
 };
 
 /// Value of a parameter: setting, config, or the default.
@@ -39,17 +40,12 @@ std::string value_of(const erp::GraphComponent& component, const SourceParameter
   return source.of_simulator;
 }
 
-bool runs(const erp::Graph& graph, const std::string& name) {
-  return std::ranges::find(graph.components, name, &erp::GraphComponent::name) !=
-         graph.components.end();
-}
-
-std::string remedy_of(const SourceParameter& source) {
-  if (std::string_view(source.parameter) == "images")
-    return "set images to the files of its cameras";
-  if (std::string_view(source.input) == "body poses")
-    return "add a <component> motion_capture, and set source to its name";
-  return "add a <component> pose_estimator or motion_capture, and set source to its name";
+bool is_available(const erp::Graph& graph, const SourceParameter& source,
+                  const std::string& value) {
+  if (value == source.of_simulator) return false;
+  const bool is_file = !*source.of_simulator;
+  return is_file || std::ranges::find(graph.components, value, &erp::GraphComponent::name) !=
+                        graph.components.end();
 }
 
 }  // namespace
@@ -61,15 +57,14 @@ void check_input_sources(const erp::Graph& graph, const std::vector<Setting>& se
     for (const SourceParameter& source : source_parameters) {
       if (type_of(component) != source.type) continue;
       const std::string value = value_of(component, source, settings);
-      const bool is_image_file = std::string_view(source.parameter) == "images" && !value.empty();
-      if (is_image_file || (value != source.of_simulator && runs(graph, value))) continue;
+      if (is_available(graph, source, value)) continue;
       const std::string publisher =
           value == source.of_simulator ? "the simulator" : "\"" + value + "\"";
       errors.push_back(
           xml::error_in(erp::GraphComponent::element, component.place,
                         "component \"" + component.name + "\" gets its " + source.input + " from " +
                             publisher + ", which does not run in this graph with hardware=\"true\"",
-                        remedy_of(source)));
+                        source.remedy));
     }
   if (!errors.empty()) throw xml::Errors(errors);
 }

@@ -12,7 +12,8 @@ void add_launch(CLI::App& app, Chosen& chosen);
 void add_check(CLI::App& app, Chosen& chosen);
 void add_help(CLI::App& app, Chosen& chosen);
 void add_command(CLI::App& app, Chosen& chosen);     ///< send, set, stop
-void add_graph_view(CLI::App& app, Chosen& chosen);  ///< doctor, ps, ls, graph
+void add_doctor(CLI::App& app, Chosen& chosen);
+void add_graph_view(CLI::App& app, Chosen& chosen);  ///< ps, ls, graph
 void add_topic_view(CLI::App& app, Chosen& chosen);  ///< hz, echo, delay
 void add_log(CLI::App& app, Chosen& chosen);
 void add_model(CLI::App& app, Chosen& chosen);
