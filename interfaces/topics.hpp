@@ -83,33 +83,42 @@ using LifecycleCommand = Message<erp_LifecycleCommand>;
 using Clock = Message<erp_Clock>;
 using Event = Message<erp_Event>;
 
-/// A message's topic: `name` on the bus, `type` its descriptor.
+/// Messages that a reader keeps until it takes them. The only key of a topic is the robot, so this
+/// bounds the memory of a reader, whatever the names of the senders. Chosen.
+namespace depth {
+inline constexpr int one_sender = 1;         ///< the newest message
+inline constexpr int several_senders = 64;   ///< some messages of each controller or source
+inline constexpr int all_components = 512;   ///< a burst from every component of a graph
+}  // namespace depth
+
+/// A message's topic: `name` on the bus, `type` its descriptor, `depth` of its readers' queues.
 template <class M>
 struct Topic;
-#define ERP_TOPIC(M, topic)                        \
+#define ERP_TOPIC(M, topic, senders)               \
   template <>                                      \
   struct Topic<M> {                                \
     static constexpr const char* name = topic;     \
     static constexpr auto* type = &erp_##M##_desc; \
+    static constexpr int depth = depth::senders;   \
   };
-ERP_TOPIC(ActuatorCommand, "actuator_command")    // controllers -> plant
-ERP_TOPIC(ActuatorTarget, "actuator_target")      // reference -> controllers
-ERP_TOPIC(SensorFrame, "sensor_frame")            // plant -> all
-ERP_TOPIC(EcuCommand, "ecu_command")              // plant -> device
-ERP_TOPIC(EcuFrame, "ecu_frame")                  // device -> plant
-ERP_TOPIC(EcuParameter, "ecu_parameter")          // plant -> device
-ERP_TOPIC(GainCommand, "gain_command")            // controllers -> plant
-ERP_TOPIC(JointState, "joint_state")              // sim (truth), pose_estimator, motion_capture
-ERP_TOPIC(JointTarget, "joint_target")            // joint_target, planners -> controllers
-ERP_TOPIC(BodyPose, "body_pose")                  // sim, motion_capture
-ERP_TOPIC(ImagePoint, "image_point")              // eye -> controllers
-ERP_TOPIC(ImuFrame, "imu_frame")                  // sim, or a driver
-ERP_TOPIC(StageResidual, "stage_residual")        // gap_monitor -> all
-ERP_TOPIC(ActuatorOwner, "actuator_owner")        // plant -> all
-ERP_TOPIC(ComponentState, "component_state")      // every component
-ERP_TOPIC(LifecycleCommand, "lifecycle_command")  // launcher -> one component
-ERP_TOPIC(Clock, "clock")                         // sim -> all
-ERP_TOPIC(Event, "event")                         // all
+ERP_TOPIC(ActuatorCommand, "actuator_command", several_senders)   // controllers -> plant
+ERP_TOPIC(ActuatorTarget, "actuator_target", several_senders)     // reference -> controllers
+ERP_TOPIC(SensorFrame, "sensor_frame", one_sender)                // plant -> all
+ERP_TOPIC(EcuCommand, "ecu_command", one_sender)                  // plant -> device
+ERP_TOPIC(EcuFrame, "ecu_frame", one_sender)                      // device -> plant
+ERP_TOPIC(EcuParameter, "ecu_parameter", one_sender)              // plant -> device
+ERP_TOPIC(GainCommand, "gain_command", several_senders)           // controllers -> plant
+ERP_TOPIC(JointState, "joint_state", several_senders)             // sim (truth), pose_estimator, motion_capture
+ERP_TOPIC(JointTarget, "joint_target", several_senders)           // joint_target, planners -> controllers
+ERP_TOPIC(BodyPose, "body_pose", several_senders)                 // sim, motion_capture
+ERP_TOPIC(ImagePoint, "image_point", several_senders)             // eye -> controllers
+ERP_TOPIC(ImuFrame, "imu_frame", several_senders)                 // sim, or a driver
+ERP_TOPIC(StageResidual, "stage_residual", one_sender)            // gap_monitor -> all
+ERP_TOPIC(ActuatorOwner, "actuator_owner", one_sender)            // plant -> all
+ERP_TOPIC(ComponentState, "component_state", all_components)      // every component
+ERP_TOPIC(LifecycleCommand, "lifecycle_command", all_components)  // launcher -> one component
+ERP_TOPIC(Clock, "clock", one_sender)                             // sim -> all
+ERP_TOPIC(Event, "event", all_components)                         // all
 #undef ERP_TOPIC
 
 /// All message types, for code that handles every topic.

@@ -91,8 +91,10 @@ void LoggerNode::add(const std::string& name, const dds_topic_descriptor_t& type
   Topic topic{0, node::describe(type), nullptr, std::move(descriptor)};
   topic.handle = recorder_.add_topic(
       name, {topic.type.name(), recording::ros2msg_text(topic.type), idl_text(topic.type.name())});
+  // Only messages of this project begin with the name of the robot.
   topic.reader =
-      std::make_unique<node::RawReader>(node_.participant(), node_.wake(), type, name, queue_depth);
+      std::make_unique<node::RawReader>(node_.participant(), node_.wake(), type, name, queue_depth,
+                                        topic.descriptor ? std::string() : robot_);
   topics_.emplace(name, std::move(topic));
 }
 

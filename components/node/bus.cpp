@@ -114,8 +114,23 @@ Qos::Qos(int depth) : qos(dds_create_qos()) {
 }
 Qos::~Qos() { dds_delete_qos(qos); }
 
-Entity make_topic(const Entity& participant, const dds_topic_descriptor_t& type, const char* name) {
-  return {dds_create_topic(participant.id(), &type, name, nullptr, nullptr), name};
+namespace {
+
+/// Every message of this project begins with the name of its robot.
+bool is_of_robot(const void* message, void* robot) {
+  return *static_cast<const std::string*>(robot) == static_cast<const char*>(message);
+}
+
+}  // namespace
+
+Entity make_topic(const Entity& participant, const dds_topic_descriptor_t& type, const char* name,
+                  const std::string& robot) {
+  Entity topic(dds_create_topic(participant.id(), &type, name, nullptr, nullptr), name);
+  if (robot.empty()) return topic;
+  auto* argument = const_cast<std::string*>(&robot);
+  if (const auto rc = dds_set_topic_filter_and_arg(topic.id(), is_of_robot, argument); rc < 0)
+    throw std::runtime_error(std::string("filter ") + name + ": " + dds_strretcode(-rc));
+  return topic;
 }
 
 Entity make_writer(const Entity& participant, const Entity& topic, int depth) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <dds/dds.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -47,7 +48,11 @@ struct Qos {
   dds_qos_t* qos;
 };
 
-Entity make_topic(const Entity& participant, const dds_topic_descriptor_t& type, const char* name);
+/// With a `robot`, the topic's readers receive only messages of this robot: DDS stores nothing for
+/// others, whatever their names. `type` must then be a message of this project, and `robot` must
+/// outlive the topic.
+Entity make_topic(const Entity& participant, const dds_topic_descriptor_t& type, const char* name,
+                  const std::string& robot = {});
 Entity make_writer(const Entity& participant, const Entity& topic, int depth);
 
 /// Messages that a writer keeps in lockstep for readers that have not received them. A run in
@@ -107,12 +112,18 @@ class Writer {
 /// Takes messages of one type; counts missing sequence numbers.
 template <class M>
 class Reader {
+  static_assert(offsetof(typename M::Wire, robot) == 0, "make_topic compares the first member");
+
  public:
-  Reader(const Entity& participant, Wake& wake, int depth = 1)
-      : Reader(participant, wake_callback(wake), depth) {}
-  Reader(const Entity& participant, const DataCallback& callback, int depth = 1)
+  /// `robot`: the robot whose messages are received; empty: every robot.
+  Reader(const Entity& participant, Wake& wake, int depth = erp::Topic<M>::depth,
+         const std::string& robot = "")
+      : Reader(participant, wake_callback(wake), depth, robot) {}
+  Reader(const Entity& participant, const DataCallback& callback, int depth = erp::Topic<M>::depth,
+         const std::string& robot = "")
       : callback_(callback),
-        topic_(make_topic(participant, *erp::Topic<M>::type, erp::Topic<M>::name)),
+        robot_(robot),
+        topic_(make_topic(participant, *erp::Topic<M>::type, erp::Topic<M>::name, robot_)),
         reader_(make_reader(participant, topic_, depth, callback_)) {}
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
@@ -148,10 +159,13 @@ class Reader {
       last = sequence;
       return;
     }
+    if (last_sequences_.size() == max_writers) last_sequences_.erase(last_sequences_.begin());
     last_sequences_.emplace_back(writer, sequence);
   }
 
+  static constexpr std::size_t max_writers = 128;  // chosen: whose sequences are compared
   DataCallback callback_;
+  std::string robot_;
   M message_{};
   std::vector<std::pair<dds_instance_handle_t, std::uint64_t>> last_sequences_;
   std::uint64_t missed_ = 0;

@@ -56,8 +56,8 @@ Node::Node(Options options, std::string robot_name, Scheduling scheduling, const
   state_out_ = &advertise<erp::ComponentState>();
   event_out_ = &advertise<erp::Event>();
   lifecycle_in_ = &subscribe<erp::LifecycleCommand>(
-      [this](const erp::LifecycleCommand& command) { on_lifecycle_command(command); }, 4,
-      Where::in_loop);
+      [this](const erp::LifecycleCommand& command) { on_lifecycle_command(command); },
+      erp::Topic<erp::LifecycleCommand>::depth, Where::in_loop);
   state_.pid = getpid();
 }
 

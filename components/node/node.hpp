@@ -55,8 +55,8 @@ class Node {
   }
   /// `handler` is called only while the node is active.
   template <class M>
-  Subscription<M>& subscribe(std::function<void(const M&)> handler, int depth = 1,
-                             Where where = Where::on_arrival) {
+  Subscription<M>& subscribe(std::function<void(const M&)> handler,
+                             int depth = erp::Topic<M>::depth, Where where = Where::on_arrival) {
     return add_port(std::make_unique<Subscription<M>>(participant_, wake_, gate_, active_, where,
                                                       depth, identity_, std::move(handler)));
   }

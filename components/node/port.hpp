@@ -80,7 +80,7 @@ class Subscription final : public Port {
         where_(where),
         reader_(participant,
                 where == Where::in_loop ? wake_callback(wake) : DataCallback{on_data, this},
-                depth) {}
+                depth, identity.robot) {}
 
   /// Called with the gate locked. Passes available messages to the handler, or drops them if
   /// `deliver` is false.

@@ -74,9 +74,10 @@ Descriptor Discovery::type_of(const std::string& topic) {
 }
 
 RawReader::RawReader(const Entity& participant, Wake& wake, const dds_topic_descriptor_t& type,
-                     const std::string& topic, int depth)
+                     const std::string& topic, int depth, const std::string& robot)
     : callback_(std::make_unique<DataCallback>(wake_callback(wake))),
-      topic_(make_topic(participant, type, topic.c_str())),
+      robot_(std::make_unique<const std::string>(robot)),
+      topic_(make_topic(participant, type, topic.c_str(), *robot_)),
       reader_(make_reader(participant, topic_, depth, *callback_)) {}
 
 std::optional<RawSample> RawReader::next() {

@@ -51,8 +51,9 @@ struct RawSample {
 /// Reads any topic, given its type.
 class RawReader {
  public:
+  /// `robot`: as in make_topic.
   RawReader(const Entity& participant, Wake& wake, const dds_topic_descriptor_t& type,
-            const std::string& topic, int depth);
+            const std::string& topic, int depth, const std::string& robot = {});
 
   template <class Handle>
   bool take(Handle&& handle) {
@@ -67,7 +68,9 @@ class RawReader {
  private:
   std::optional<RawSample> next();
 
-  std::unique_ptr<DataCallback> callback_;  // its address stays valid when the reader is moved
+  // Their addresses stay valid when the reader is moved.
+  std::unique_ptr<DataCallback> callback_;
+  std::unique_ptr<const std::string> robot_;
   std::vector<std::byte> bytes_;
   Entity topic_, reader_;
 };

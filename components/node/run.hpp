@@ -60,7 +60,7 @@ class Stepper {
   Stepper(Node& node, T& component, Step step)
       : node_(node), component_(component), step_(step), out_(node.advertise<OutMessage>()) {
     more_ports_ =
-        std::make_tuple(&node.subscribe<More>([this](const More& m) { on_message(m); }, 1)...);
+        std::make_tuple(&node.subscribe<More>([this](const More& m) { on_message(m); })...);
     node.subscribe<In>([this](const In& in) {
       pending_ = in, is_pending_ = true, pending_since_ns_ = monotonic_ns(), try_step();
     });

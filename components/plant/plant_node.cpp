@@ -9,6 +9,7 @@ namespace {
 constexpr std::int64_t device_check_ns = 1'000'000;  // device_lost follows 50 … 51 ms of silence
 constexpr std::uint64_t owner_period_frames = 50;    // owners are published at 10 Hz
 constexpr std::uint64_t gains_period_frames = 50;    // between attempts to set gains
+constexpr std::size_t max_answers = 64;              // chosen: controllers that lockstep waits for
 
 }  // namespace
 
@@ -57,10 +58,13 @@ void PlantNode::on_command(const erp::ActuatorCommand& command) {
   if (!node_.clock().lockstep() || all_answered()) answer();
 }
 
+/// If the list is full, the controller that has been silent for the most frames loses its place.
 void PlantNode::store_answer(const erp::ActuatorCommand& command) {
-  const auto previous = std::ranges::find(answers_, command.controller, &Answer::controller);
-  if (previous == answers_.end()) answers_.push_back({command.controller, command.answers});
-  else previous->answers = command.answers;
+  auto place = std::ranges::find(answers_, command.controller, &Answer::controller);
+  if (place == answers_.end())
+    place = answers_.size() < max_answers ? answers_.insert(place, Answer{})
+                                          : std::ranges::min_element(answers_, {}, &Answer::answers);
+  *place = {command.controller, command.answers};
 }
 
 bool PlantNode::all_answered() const {

@@ -4,28 +4,21 @@
 
 namespace launch {
 
-constexpr int event_depth = 64;  // queue length for a burst of events from one component; chosen
-
 BusLink::BusLink(std::string robot)
     : robot_(std::move(robot)),
       self_(node::own_peer("erp", "")),
       participant_(node::join(self_)),
       peers_(participant_, wake_, self_),
-      states_(participant_, wake_),
-      events_(participant_, wake_, event_depth),
-      clock_(participant_, clock_wake_),
-      commands_(participant_) {}
+      states_(participant_, wake_, erp::Topic<erp::ComponentState>::depth, robot_),
+      events_(participant_, wake_, erp::Topic<erp::Event>::depth, robot_),
+      clock_(participant_, clock_wake_, erp::Topic<erp::Clock>::depth, robot_),
+      commands_(participant_, erp::Topic<erp::LifecycleCommand>::depth) {}
 
 void BusLink::poll(const Handlers& handlers) {
   wake_.clear();
-  const auto of_robot = [this](const auto& handler) {
-    return [this, &handler](const auto& message) {
-      if (robot_ == message.robot) handler(message);
-    };
-  };
-  states_.take(of_robot(handlers.state));
-  events_.take(of_robot(handlers.event));
-  clock_.take(of_robot(handlers.clock));
+  states_.take(handlers.state);
+  events_.take(handlers.event);
+  clock_.take(handlers.clock);
 }
 
 std::vector<node::Peer> BusLink::peers() {
