@@ -13,4 +13,8 @@ inline constexpr std::int32_t emergency_priority = std::numeric_limits<std::int3
 /// In place of a mode: the sender gives up the actuator at once, instead of becoming stale.
 inline constexpr std::uint8_t release_mode = 255;
 
+/// In place of a mode: the reference, in m, is the change of line length since the starting pose at the
+/// actuator's present position. Sets the zero of its encoder.
+inline constexpr std::uint8_t set_zero_mode = 254;
+
 }  // namespace erp

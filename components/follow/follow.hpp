@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "components/node/run.hpp"
@@ -37,10 +38,12 @@ struct Channel {
   std::array<float, ECU_PARAMETER_COUNT> gains;
   double radius_m;
   std::optional<double> last_shaft_rad;
+  std::uint8_t last_valid = 0;
   float gain(ecu_parameter_index index) const { return gains[static_cast<std::size_t>(index)]; }
 };
 
-/// `Law` has `static constexpr erp::Mode mode` and
+/// `Law` has `static constexpr erp::Mode mode`, `static constexpr std::uint8_t needed` (bits of
+/// erp::valid: the measurements that it needs) and
 /// `static float voltage_V(const Channel&, float reference, const erp::ActuatorSample&, float
 /// speed_rad_per_s)`.
 template <class Law>
@@ -89,18 +92,21 @@ class Follow {
   void update_speeds(const erp::SensorFrame& frame, double dt_s) {
     for (const auto& sample : erp::samples(frame.actuators)) {
       const std::size_t i = index_of(sample.name);
-      if (i >= channels_.size() || !(sample.valid & erp::valid::shaft)) continue;
-      auto& last = channels_[i].second.last_shaft_rad;
+      if (i >= channels_.size() || !sample.valid) continue;
+      Channel& channel = channels_[i].second;
+      auto& last = channel.last_shaft_rad;
+      // The angle jumps when the zero of the encoder becomes known.
+      if (std::exchange(channel.last_valid, sample.valid) != sample.valid) last.reset();
       speeds_[i] = last && dt_s > 0 ? static_cast<float>((sample.shaft_rad - *last) / dt_s) : 0.0F;
       last = sample.shaft_rad;
     }
   }
 
-  /// A measured actuator by name; nullptr if it was not measured.
+  /// An actuator by name; nullptr if a measurement that the law needs is missing.
   static const erp::ActuatorSample* find(const erp::SensorFrame& frame, std::string_view name) {
     for (const auto& sample : erp::samples(frame.actuators))
       if (name == sample.name)
-        return (sample.valid & erp::valid::all) == erp::valid::all ? &sample : nullptr;
+        return (sample.valid & Law::needed) == Law::needed ? &sample : nullptr;
     return nullptr;
   }
   std::size_t index_of(std::string_view name) const {

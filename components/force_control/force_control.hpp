@@ -5,6 +5,7 @@
 /// Tendon force control, paper 5.1 (iv):  V = P F_ref − k_i i − k_ω ω − k_F F.
 struct ForceLaw {
   static constexpr erp::Mode mode = erp::Mode::force;
+  static constexpr std::uint8_t needed = erp::valid::current | erp::valid::tension;
   static float voltage_V(const follow::Channel& channel, float force_ref_N,
                          const erp::ActuatorSample& sample, float speed_rad_per_s) {
     const law_force_gains gains{

@@ -39,6 +39,7 @@ ActuatorChannel::ActuatorChannel(const erp::Actuator& actuator, const erp::Motor
 Checked ActuatorChannel::receive(std::string_view controller, std::int32_t priority, erp::Mode mode,
                                  double reference, std::int64_t now_ns, std::int64_t stale_ns) {
   Checked checked = limits_.check(mode, reference);
+  if (mode == erp::Mode::length && !zero_known_) checked = {Verdict::refused, 0, zero_unknown_reason};
   if (checked.verdict != Verdict::refused &&
       !arbiter_.update(controller, priority, mode, checked.reference, now_ns, stale_ns))
     checked = {
@@ -53,16 +54,30 @@ Checked ActuatorChannel::receive(std::string_view controller, std::int32_t prior
 }
 
 void ActuatorChannel::observe(ecu_state state, std::uint8_t fault, std::int32_t encoder_counts,
-                              double tension_N, std::int64_t now_ns) {
+                              double tension_N, bool zero_known, std::int64_t now_ns) {
   if (state == ECU_STATE_ARMED && state_ != ECU_STATE_ARMED) {
     armed_ns_ = now_ns;
     is_approaching_ = true;
     rate_limited_mode_ = erp::Mode::off;
   }
+  if (zero_known != zero_known_) {  // the counts jump
+    tendon_monitor_.reset_unless_snapped();
+    rate_limited_mode_ = erp::Mode::off, is_approaching_ = true, is_taking_up_ = false;
+    active_safe_action_ = erp::SafeAction::none;
+  }
+  zero_known_ = zero_known;
   state_ = state;
   fault_ = fault;
   encoder_counts_ = encoder_counts;
   tension_N_ = tension_N;
+}
+
+std::string ActuatorChannel::zero_refusal(std::string_view controller, std::int32_t priority,
+                                          double line_m) const {
+  if (!may_command(controller, priority))
+    return std::string(owner()) + " is the owner; refused the zero of " + std::string(controller);
+  if (!(std::abs(line_m) <= Limits::max_line_m)) return "the line is out of range";
+  return "";
 }
 
 void ActuatorChannel::mark_lost() {
@@ -75,7 +90,8 @@ Demand ActuatorChannel::decide(std::int64_t now_ns, std::int64_t stale_ns, doubl
   const ControllerCommand* command = arbiter_.winner(now_ns, stale_ns);
   priority_ = command ? command->priority : 0;
   const bool off_commanded = command && command->mode == erp::Mode::off;
-  if (limb_degraded && !off_commanded) command = nullptr;
+  const bool needs_zero = command && command->mode == erp::Mode::length && !zero_known_;
+  if ((limb_degraded && !off_commanded) || needs_zero) command = nullptr;
   if (!command) rate_limited_mode_ = erp::Mode::off, is_approaching_ = true;
   if (state_ != ECU_STATE_RUNNING || command) active_safe_action_ = erp::SafeAction::none;
   if (off_commanded) tendon_monitor_.reset();

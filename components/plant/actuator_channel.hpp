@@ -19,12 +19,15 @@
 ///   armed       off                      commanded mode, if the command arrived after arming
 ///   running     safe action              commanded mode, rate limits of robot.xml
 ///     if the limb is degraded            safe action
+///     if the encoder's zero is unknown   length references count as no command
 ///     if the tendon is slack: winds the slack up slowly, with or without an owner
 ///     if the tendon has snapped: off; a command of mode off by the owner resets this
 ///   fault, with or without an owner: clear if the host was silent; otherwise off, and clear once
 ///     the owner commands mode off
 namespace plant {
 
+inline constexpr std::string_view zero_unknown_reason =
+    "the zero of its encoder is unknown; set it with: erp home";
 inline constexpr std::string_view outranked_reason = "another controller is the owner";
 
 /// Limits the rate of change of a reference:  r ← r + clamp(target − r, ± rate dt).
@@ -66,6 +69,8 @@ class ActuatorChannel {
                   double reference, std::int64_t now_ns, std::int64_t stale_ns);
   /// Counts refused gains, with the reason.
   void refuse_gains(std::string_view reason) { ++refused_gains_, reason_ = reason; }
+  /// Why a controller may not set the zero of the encoder now; empty: it may.
+  std::string zero_refusal(std::string_view controller, std::int32_t priority, double line_m) const;
   /// A controller gives up the actuator (interfaces/emergency.hpp).
   void release(std::string_view controller, std::int32_t priority) {
     arbiter_.release(controller, priority);
@@ -75,7 +80,7 @@ class ActuatorChannel {
   bool is_emergency_off() const { return arbiter_.is_emergency_off(); }
   /// Stores the reported state of the ECU.
   void observe(ecu_state state, std::uint8_t fault, std::int32_t encoder_counts, double tension_N,
-               std::int64_t now_ns);
+               bool zero_known, std::int64_t now_ns);
   /// Marks the ECU as lost: its state is unknown until the next `observe`.
   void mark_lost();
   /// Computes the next request; `dt_s` since the last call. With `limb_degraded` another ECU of the
@@ -115,6 +120,7 @@ class ActuatorChannel {
   Arbiter arbiter_;
   ecu_state state_ = ECU_STATE_BOOT;
   std::uint8_t fault_ = 0;
+  bool zero_known_ = false;
   std::int32_t encoder_counts_ = 0, hold_counts_ = 0;
   std::int64_t armed_ns_ = 0;
   double max_line_speed_m_per_s_, max_tension_rate_N_per_s_;

@@ -113,6 +113,7 @@ void Plant::notice_limb(std::size_t actuator) {
 }
 
 void Plant::notice_changes() {
+  std::ranges::move(zeros_.take_notices(), std::back_inserter(notices_));
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     const ActuatorChannel& channel = channels_[i];
     Reported& reported = reported_[i];

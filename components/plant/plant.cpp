@@ -13,6 +13,14 @@ constexpr double slack_sigmas =
 /// have switched off.
 constexpr double max_interval_s = 0.05;
 
+std::vector<double> rad_per_count(const erp::Robot& robot) {
+  std::vector<double> scales;
+  for (const auto& a : robot.actuators)
+    scales.push_back(
+        sim::EcuUnits(robot.motor_of(a), robot.sensors_of(a), a.spindle).shaft_rad_per_count);
+  return scales;
+}
+
 TendonMonitor::Params tendon_params(const erp::SensorType& sensors, const Plant::Params& params) {
   return {std::max(params.slack_N, slack_sigmas * sensors.tension_noise_N), params.take_up_m};
 }
@@ -23,6 +31,7 @@ Plant::Plant(const Params& params, const erp::Robot& robot)
     : stale_ns_(std::llround(1e9 * params.stale_s)),
       device_lost_ns_(std::llround(1e9 * params.device_lost_s)),
       limb_monitor_(robot, device_lost_ns_),
+      zeros_(robot, rad_per_count(robot)),
       boot_since_ns_(robot.actuators.size(), 0),
       reported_(robot.actuators.size()) {
   for (auto& ecu : channel_at_) ecu.fill(-1);
@@ -78,13 +87,15 @@ void Plant::sense_channel(const erp::EcuChannelSample& counts, std::int64_t now_
   const auto i = static_cast<std::size_t>(index);
   ActuatorChannel& channel = channels_[i];
   auto& sample = frame_.actuators._buffer[i];
-  sample.valid = counts.fresh ? erp::valid::all : 0;
+  sample.valid = 0;
   if (!counts.fresh) return;
+  zeros_.observe(i, counts, now_ns);
+  sample.valid = zeros_.is_known(i) ? erp::valid::all : erp::valid::without_zero;
   observe_gains(i, counts, now_ns);
   if (!reported_[i].stays_in_boot) limb_monitor_.on_sample(i, now_ns);
   const sim::EcuUnits& units = channel.units();
   channel.observe(static_cast<ecu_state>(counts.state), counts.fault, counts.encoder_counts,
-                  units.tension_N(counts.tension_counts), now_ns);
+                  units.tension_N(counts.tension_counts), zeros_.is_known(i), now_ns);
   sample.ecu_state = counts.state;
   sample.ecu_fault = counts.fault;
   sample.mode = static_cast<std::uint8_t>(sim::EcuUnits::mode(counts.request));
@@ -96,7 +107,7 @@ void Plant::sense_channel(const erp::EcuChannelSample& counts, std::int64_t now_
   sample.tension_N = units.tension_N(counts.tension_counts);
 }
 
-void Plant::sense_analog(const erp::EcuAnalogSample& counts) {
+void Plant::sense_analog(const erp::EcuAnalogSample& counts, std::int64_t now_ns) {
   if (counts.ecu >= analog_at_.size() || counts.input >= analogs_per_ecu || !counts.fresh) return;
   const int index = analog_at_[counts.ecu][counts.input];
   if (index < 0) return;
@@ -105,9 +116,12 @@ void Plant::sense_analog(const erp::EcuAnalogSample& counts) {
   if (analog.joint >= 0) {
     auto& sample = frame_.joints._buffer[analog.joint];
     sample.valid = erp::valid::joint_angle, sample.angle_rad = angle_rad;
+    zeros_.observe_joint(static_cast<std::size_t>(analog.joint), angle_rad);
   } else {
     auto& sample = frame_.actuators._buffer[analog.actuator];
     sample.valid |= erp::valid::potentiometer, sample.potentiometer_rad = angle_rad;
+    if (sample.valid & erp::valid::voltage)
+      zeros_.observe_potentiometer(static_cast<std::size_t>(analog.actuator), angle_rad, now_ns);
   }
 }
 
@@ -117,7 +131,8 @@ const erp::SensorFrame& Plant::sense(const erp::EcuFrame& frame, std::int64_t no
   for (auto& sample : erp::samples(frame_.actuators)) sample.valid = 0;
   for (auto& sample : erp::samples(frame_.joints)) sample.valid = 0;
   for (const auto& channel : erp::samples(frame.channels)) sense_channel(channel, now_ns);
-  for (const auto& analog : erp::samples(frame.analogs)) sense_analog(analog);
+  for (const auto& analog : erp::samples(frame.analogs)) sense_analog(analog, now_ns);
+  zeros_.update(now_ns);
   last_frame_ns_ = now_ns;
   device_alive_ = true;
   return frame_;
@@ -145,11 +160,23 @@ void Plant::receive(const erp::ActuatorCommand& command, std::int64_t now_ns) {
     }
     ActuatorChannel& channel = channels_[*index];
     if (reference.mode == erp::release_mode) channel.release(command.controller, command.priority);
+    else if (reference.mode == erp::set_zero_mode)
+      set_zero(*index, command, reference.reference, now_ns);
     else
       channel.receive(command.controller, allowed_priority(command.priority, reference.mode),
                       static_cast<erp::Mode>(reference.mode), reference.reference, now_ns,
                       stale_ns_);
   }
+}
+
+void Plant::set_zero(std::size_t actuator, const erp::ActuatorCommand& command, double line_m,
+                     std::int64_t now_ns) {
+  ActuatorChannel& channel = channels_[actuator];
+  const std::string reason =
+      channel.zero_refusal(command.controller, command.priority, line_m);
+  if (reason.empty())
+    return zeros_.set(actuator, channel.units().shaft_of_line_rad(line_m), command.controller, now_ns);
+  channel.refuse_gains(reason);
 }
 
 void Plant::report_unknown(const std::string& controller, const std::string& name) {

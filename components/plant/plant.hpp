@@ -9,21 +9,15 @@
 #include "components/plant/actuator_channel.hpp"
 #include "components/plant/channel_gains.hpp"
 #include "components/plant/limb_monitor.hpp"
+#include "components/plant/notice.hpp"
 #include "components/plant/reported_once.hpp"
+#include "components/plant/zeros.hpp"
 #include "interfaces/topics.hpp"
 
 /// The robot-independent layer between controllers and any device: units, limits, arbitration by
 /// priority and age of the command, safe action, re-arming. Reads no clock and no bus: time and
 /// messages are arguments.
 namespace plant {
-
-/// A change that is reported once.
-struct Notice {
-  erp::Severity severity;
-  std::string subject;  ///< actuator, or number of actuators
-  std::string code;
-  std::string text;
-};
 
 /// Merges three or more notices that differ only in the actuator into one that contains their
 /// number. It also names the first three, unless the notices concern all actuators; `actuators` is
@@ -65,7 +59,7 @@ class Plant {
   const erp::ActuatorOwner& owners();
   /// A controller may change gains of the actuators that it may command.
   void receive(const erp::GainCommand& command);
-  /// The next proposed gains; with `load`, also all gains of the channels that report state boot.
+  /// The next proposed gains and zeros; with `load`, also all gains of the channels in state boot.
   /// Without a stamp; often empty.
   const erp::EcuParameter& gains(std::int64_t now_ns, bool load);
   /// Marks all measurements invalid if the device is silent for too long. True on this transition.
@@ -89,7 +83,9 @@ class Plant {
   void sense_channel(const erp::EcuChannelSample& counts, std::int64_t now_ns);
   void mark_lost(std::size_t actuator);
   void add_analogs(const erp::Robot& robot);
-  void sense_analog(const erp::EcuAnalogSample& counts);
+  void sense_analog(const erp::EcuAnalogSample& counts, std::int64_t now_ns);
+  void set_zero(std::size_t actuator, const erp::ActuatorCommand& command, double line_m,
+                std::int64_t now_ns);
   void report_unknown(const std::string& controller, const std::string& name);
   void observe_gains(std::size_t actuator, const erp::EcuChannelSample& counts,
                      std::int64_t now_ns);
@@ -115,6 +111,7 @@ class Plant {
       channel_at_;  ///< [ecu][channel] → index or −1
   std::array<std::array<int, analogs_per_ecu>, ecus> analog_at_;  ///< [ecu][input] → index or −1
   std::vector<ChannelGains> gains_;                               ///< one per actuator
+  Zeros zeros_;
   std::vector<std::int64_t> boot_since_ns_;                       ///< 0: not in state boot
   erp::EcuParameter parameters_;
   std::vector<Reported> reported_;

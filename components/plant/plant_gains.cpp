@@ -70,6 +70,7 @@ const erp::EcuParameter& Plant::gains(std::int64_t now_ns, bool load) {
     if (load && gains.is_booting()) gains.append_all(parameters_);
     gains.append_next(parameters_, now_ns);
   }
+  zeros_.append_next(parameters_, now_ns);
   return parameters_;
 }
 

@@ -12,7 +12,7 @@
 ///
 ///   σ_l² = (σ_F / f′)² + σ_θ² r² + σ_model²        noise of robot.xml's sensors, and `model_m`
 ///
-/// Encoders count from power-up: the robot must be in its starting pose at power-up.
+/// Tendons whose encoder has no known zero are skipped.
 namespace pose {
 
 class PoseEstimator {

@@ -31,6 +31,8 @@ erp::EcuChannelSample channel_of(const recording::Members& m) {
   channel.fault = number<std::uint8_t>(m, "fault");
   channel.request = number<std::uint8_t>(m, "request");
   channel.setpoint = number<std::int32_t>(m, "setpoint");
+  // Recordings of versions without this field contain only absolute counts.
+  channel.zero_known = !m.find("zero_known") || boolean(m, "zero_known");
   channel.encoder_counts = number<std::int32_t>(m, "encoder_counts");
   channel.duty_counts = number<std::int16_t>(m, "duty_counts");
   channel.current_counts = number<std::int16_t>(m, "current_counts");

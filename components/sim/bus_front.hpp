@@ -21,6 +21,8 @@ class BusFront {
   /// Receives all waiting frames of a bus. True when every ECU has its answer to the last tick.
   bool receive(std::size_t bus);
   void send_boot() { send(ecus_.boot(FRAME_RESET_POWER)); }
+  /// The ECU's link starts again, with its boot frame.
+  void reset(int ecu) { send(ecus_.reset(ecu, FRAME_RESET_BROWN_OUT)); }
   void send_tick(const erp::EcuFrame& tick) { send(ecus_.report(tick)); }
   void repeat_tick() { send(ecus_.repeat()); }
 

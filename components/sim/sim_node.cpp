@@ -36,6 +36,7 @@ VirtualEcuOptions ecu_options(const SimNode::Params& params) {
   VirtualEcuOptions options;
   options.substeps = substeps_of(params);
   options.seed = static_cast<std::uint64_t>(params.seed);
+  options.zeros_known = params.zeros == Zeros::known;
   return options;
 }
 
@@ -59,6 +60,9 @@ SimNode::SimNode(const Params& params, const erp::Robot& robot, node::Node& node
     throw std::invalid_argument(
         "the faults hang, busy and bus_off need ECUs that run as separate programs: "
         "give converter_port, and start `ecu`");
+  if (faults_.has(FaultKind::reset) && params.has_external_ecus())
+    throw std::invalid_argument(
+        "the fault reset needs virtual ECUs; end the process `ecu` of a separate one instead");
   if (!faults_.empty()) ecus_.inject(&faults_);
   if (params.has_external_ecus()) serve_external(params, robot);
   else if (params.bus.empty()) join_bus_as_device();
@@ -146,11 +150,19 @@ void SimNode::step() {
   if (++steps_ % steps_per_tick() == 0) tick();
 }
 
-void SimNode::tick() {
-  node_.count_step(frame_.stamp_ns);
-  for (const InjectedFault* fault : faults_.beginning(world_.time_s(), tick_s))
+void SimNode::begin_faults() {
+  for (const auto& [fault, ecu] : faults_.beginning(world_.time_s(), tick_s)) {
     node_.report(erp::Severity::info, fault->on, "fault_injected",
                  xml::Codec<FaultKind>::write(fault->kind));
+    if (fault->kind != FaultKind::reset) continue;
+    ecus_.reset(ecu);
+    if (bus_) bus_->reset(ecu);
+  }
+}
+
+void SimNode::tick() {
+  node_.count_step(frame_.stamp_ns);
+  begin_faults();
   for (const AttachedLoad* load : loads_.update(world_))
     node_.report(erp::Severity::info, load->body,
                  load->is_attached(world_.time_s()) ? "load_attached" : "load_detached",

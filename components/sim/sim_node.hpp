@@ -1,8 +1,10 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "components/node/node.hpp"
@@ -27,6 +29,9 @@
 /// (external_ecus.hpp).
 namespace sim {
 
+/// What the virtual ECUs know of the zeros of their encoders at the start.
+enum class Zeros { known, unknown };
+
 class SimNode {
  public:
   struct Lock {
@@ -41,6 +46,7 @@ class SimNode {
   struct Params {
     double physics_Hz = 1000;
     int seed = 1;
+    Zeros zeros = Zeros::known;
     std::string bus;
     int converter_port = 0;
     std::string converter_lines;
@@ -52,6 +58,9 @@ class SimNode {
       v("physics_Hz", physics_Hz,
         {xml::Range{500, 20000}, "Rate of the physics; a multiple of the ECUs' 500 Hz."});
       v("seed", seed, {xml::Range{0, 1e9}, "Seed of the sensor noise."});
+      v("zeros", zeros,
+        "Zeros of the encoders at the start. unknown: as after a reset of the ECUs, like those of a "
+        "real robot.");
       v("bus", bus, "CAN buses on which the robot is simulated, as bus of gateway; empty: DDS.");
       v("converter_port", converter_port,
         {xml::Range{0, 65535}, "UDP port on loopback to which external ECUs connect; 0: none."});
@@ -78,6 +87,7 @@ class SimNode {
   int steps_per_tick() const;
   void step();
   void tick();
+  void begin_faults();
   bool at_end() const { return end_ticks_ && ticks_ >= end_ticks_; }
   void measure_and_publish();
   void publish_frame();
@@ -115,3 +125,9 @@ class SimNode {
 };
 
 }  // namespace sim
+
+template <>
+struct xml::Names<sim::Zeros> {
+  static constexpr auto list = std::to_array<std::pair<const char*, sim::Zeros>>(
+      {{"known", sim::Zeros::known}, {"unknown", sim::Zeros::unknown}});
+};

@@ -125,6 +125,16 @@ void wire_unpack_readings(const wire_reader* reader, board_readings* readings) {
   for (unsigned k = 0; k < ECU_ANALOG_INPUTS; ++k) readings->analog[k] = (int32_t)get(&position, 4);
 }
 
+void wire_count_from_reset(wire_counters* counters, board_readings* readings) {
+  for (unsigned k = 0; k < 2; ++k) {
+    uint32_t total = (uint32_t)readings->channel[k].encoder_counts;
+    if (!counters->started) counters->start_counts[k] = (int32_t)total;
+    total -= (uint32_t)counters->start_counts[k];
+    readings->channel[k].encoder_counts = (int32_t)total;
+  }
+  counters->started = true;
+}
+
 void wire_unpack_drive(const wire_reader* reader, int16_t* duty) {
   const uint8_t* position = reader->bytes + HEADER_BYTES;
   for (unsigned k = 0; k < 2; ++k) duty[k] = (int16_t)get(&position, 2);

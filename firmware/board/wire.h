@@ -39,6 +39,15 @@ typedef struct {
   uint16_t periods;
 } wire_fault;
 
+/* The quadrature counters of a board count from 0 at its reset; the robot sends the shaft's total
+ * count. Initialize to zero at the reset. */
+typedef struct {
+  bool started;
+  int32_t start_counts[2];
+} wire_counters;
+/* Replaces the total counts of `readings` by those since the reset. */
+void wire_count_from_reset(wire_counters* counters, board_readings* readings);
+
 /* Packing returns the number of bytes written, at most WIRE_MESSAGE_MAX. */
 unsigned wire_pack_readings(uint8_t* bytes, uint8_t ecu, const board_readings* readings);
 unsigned wire_pack_drive(uint8_t* bytes, uint8_t ecu, const int16_t* duty);

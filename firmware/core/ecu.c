@@ -116,6 +116,23 @@ bool ecu_command(ecu_channel* channel, ecu_request request, int32_t setpoint) {
   }
 }
 
+/* ---- the encoder's zero ---- */
+
+static int32_t add_counts(int32_t a, int32_t b) { return (int32_t)((uint32_t)a + (uint32_t)b); }
+
+bool ecu_set_zero(ecu_channel* channel, bool known, int32_t counts) {
+  if (channel->state == ECU_STATE_RUNNING && channel->request == ECU_REQUEST_LENGTH) return false;
+  ecu_sensed* s = &channel->sensed;
+  const int32_t change = (int32_t)((uint32_t)counts - (uint32_t)channel->zero_counts);
+  const float change_rad = (float)change * GAIN(channel, SHAFT_SCALE);
+  channel->zero_known = known;
+  channel->zero_counts = counts;
+  s->inputs.encoder_counts = add_counts(s->inputs.encoder_counts, change);
+  s->shaft_rad += change_rad;
+  s->wiper_zero_rad += change_rad;
+  return true;
+}
+
 /* ---- one period ---- */
 
 static void trip_if(ecu_channel* c, ecu_fault fault) {
@@ -161,15 +178,17 @@ static int16_t drive(ecu_channel* c) {
   return (int16_t)(counts < 0.0f ? counts - 0.5f : counts + 0.5f);
 }
 
-int16_t ecu_tick(ecu_channel* channel, const ecu_inputs* inputs) {
+int16_t ecu_tick(ecu_channel* channel, const ecu_inputs* converters) {
+  ecu_inputs inputs = *converters;
+  inputs.encoder_counts = add_counts(inputs.encoder_counts, channel->zero_counts);
   if (channel->gains_complete) {
     const ecu_fault sensor =
-        ecu_sense(&channel->sensed, channel->gains, inputs, applied_V(channel));
-    trip_if(channel, ecu_strain_tick(&channel->strain, channel->gains, &channel->sensed, inputs));
+        ecu_sense(&channel->sensed, channel->gains, &inputs, applied_V(channel));
+    trip_if(channel, ecu_strain_tick(&channel->strain, channel->gains, &channel->sensed, &inputs));
     trip_if(channel, sensor);
     check_timeout(channel);
   }
-  channel->sensed.inputs = *inputs;
+  channel->sensed.inputs = inputs;
   channel->sensed.has_inputs = true;
   channel->duty = channel->state == ECU_STATE_RUNNING ? drive(channel) : 0;
   return channel->duty;

@@ -2,7 +2,7 @@
  *
  *   every 2 ms:  duty = ecu_tick(&channel, &inputs)        reads converters, returns PWM
  *   on a frame:  ecu_command(&channel, request, setpoint)  request and set-point to apply
- *   on a frame:  ecu_parameter(&channel, index, value, commit)
+ *   on a frame:  ecu_parameter(&channel, index, value, commit)  gains and the encoder's zero
  *
  * C11, no heap, no OS, no library but <stdint.h>, <stdbool.h>; single-precision arithmetic.
  * The same source runs on the microcontroller, in the process `ecu` and in the simulator.
@@ -75,6 +75,8 @@ typedef struct {
   int16_t duty;
   uint32_t overruns;             /* since initialization */
   uint32_t consecutive_overruns; /* control periods */
+  bool zero_known;               /* the zero was set since the reset */
+  int32_t zero_counts;           /* added to the encoder's counts; 0 until the zero is set */
 } ecu_channel;
 
 void ecu_init(ecu_channel* channel);
@@ -94,11 +96,20 @@ bool ecu_parameter(ecu_channel* channel, uint8_t index, float value, bool commit
 /* Drops the values staged since the last commit; a new set begins. */
 void ecu_discard_parameters(ecu_channel* channel);
 
+/* Sets the encoder's zero: from now on the position is the counts since the reset plus `counts`.
+ * After a reset the encoder starts at 0 wherever the shaft is, so the zero is unknown until the host
+ * has determined it. Speeds do not change. Returns false, without effect, while the channel follows a
+ * length set-point. As a parameter: index ECU_ZERO, effective without commit; NaN: unknown. */
+bool ecu_set_zero(ecu_channel* channel, bool known, int32_t counts);
+#define ECU_ZERO 62u             /* index on the bus; not one of the gains */
+#define ECU_ZERO_MAX 8388607     /* counts; exact in float32; 4 times the range of set-points */
+
 /* Reports that a value of the staged set was lost in transit: its commit will be rejected. */
 void ecu_invalidate_staged(ecu_channel* channel);
 
-/* One control period. Returns the PWM duty, -ECU_DUTY_MAX .. ECU_DUTY_MAX. */
-int16_t ecu_tick(ecu_channel* channel, const ecu_inputs* inputs);
+/* One control period. The encoder counts of `converters` start at 0 at the reset. Returns the PWM
+ * duty, -ECU_DUTY_MAX .. ECU_DUTY_MAX. */
+int16_t ecu_tick(ecu_channel* channel, const ecu_inputs* converters);
 
 /* Forces the fault state from outside (corrupt frames, watchdogs). The first cause is kept. */
 void ecu_trip(ecu_channel* channel, ecu_fault fault);

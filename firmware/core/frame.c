@@ -182,6 +182,7 @@ void frame_pack_health(bus_frame* frame, uint8_t ecu, uint8_t channel,
     put(&c, 1, content->warning);
     put(&c, 8, content->lost);
     put(&c, 8, content->corrupt);
+    put(&c, 1, content->zero_known);
   } else {
     put(&c, 3, content->request);
     put_setpoint(&c, content->setpoint);
@@ -202,6 +203,7 @@ bool frame_unpack_health(const bus_frame* frame, frame_health* content) {
     content->warning = take_bit(&c);
     content->lost = take8(&c, 8);
     content->corrupt = take8(&c, 8);
+    content->zero_known = take_bit(&c);
   } else {
     content->request = take8(&c, 3);
     content->setpoint = take_setpoint(&c);

@@ -17,10 +17,12 @@
  *                                   not running: state 3, fault 4, request 3, warning 1
  *   ANALOG     5     ECU -> host  page 1, present 2, counts 24 (s), counts 24 (s), counter 3
  *   HEALTH     6, 7  ECU -> host  channel 0, channel 1: page 1, counter 3, then
- *                                   page 0:  encoder 32, warning 1, lost 8, corrupt 8
+ *                                   page 0:  encoder 32, warning 1, lost 8, corrupt 8,
+ *                                            zero known 1
  *                                   page 1:  request 3, set-point 22 (s), rejected 16,
  *                                            refused gain sets 8, accepted gain sets 3
- *   PARAMETER  8     host -> ECU  channel 1, index 6, commit 1, position 8, float32
+ *   PARAMETER  8     host -> ECU  channel 1, index 6, commit 1, position 8, float32; index ECU_ZERO
+ *                                 sets the encoder's zero and is not part of a set
  *   DISCOVER   9     host -> ECU  no data; to one address, or to 127: all ECUs
  *   HELLO      10    ECU -> host  version 6, channels 2, analog inputs 4, reset cause 4, serial 24
  *
@@ -46,7 +48,7 @@
 extern "C" {
 #endif
 
-#define FRAME_VERSION 4u
+#define FRAME_VERSION 5u
 #define FRAME_ECUS 127u                  /* addresses 0 .. 126 */
 #define FRAME_EVERYONE 127u              /* address of a DISCOVER that all ECUs answer */
 #define FRAME_SETPOINT_MAX 2097151       /* 22 bits signed; -2097152 is reserved: */
@@ -120,11 +122,12 @@ typedef struct {
 } frame_analog;
 
 typedef struct {
-  uint8_t page; /* 0: encoder to corrupt; 1: request to accepted_gain_sets; the other fields are 0 */
+  uint8_t page; /* 0: encoder to zero_known; 1: request to accepted_gain_sets; the other fields are 0 */
   uint8_t counter;
   int32_t encoder_counts; /* full count */
   bool warning;
   uint8_t lost, corrupt; /* commands since boot, modulo 256 */
+  bool zero_known;       /* the encoder count is absolute */
   uint8_t request;
   int32_t setpoint;          /* in effect */
   uint16_t rejected;         /* set-points since boot, modulo 65536 */

@@ -4,7 +4,7 @@
 #include "firmware/core/ecu.h"
 #include "firmware/core/state.h"
 
-_Static_assert(ECU_PARAMETER_COUNT < 64, "`written` has one bit per parameter");
+_Static_assert(ECU_PARAMETER_COUNT < ECU_ZERO, "`written` has one bit per parameter");
 static const uint64_t all_written = ((uint64_t)1 << ECU_PARAMETER_COUNT) - 1u;
 
 static bool is_finite(float x) { return x >= -FLT_MAX && x <= FLT_MAX; } /* false for NaN */
@@ -58,7 +58,14 @@ static bool commit_staged(ecu_channel* channel) {
   return true;
 }
 
+static bool set_zero(ecu_channel* channel, float value) {
+  if (value >= -(float)ECU_ZERO_MAX && value <= (float)ECU_ZERO_MAX)
+    return ecu_set_zero(channel, true, (int32_t)value);
+  return !is_finite(value) && ecu_set_zero(channel, false, 0);
+}
+
 bool ecu_parameter(ecu_channel* channel, uint8_t index, float value, bool commit) {
+  if (index == ECU_ZERO) return set_zero(channel, value);
   const bool is_valid = index < ECU_PARAMETER_COUNT && is_finite(value);
   if (is_valid) {
     channel->gains_staged[index] = value;

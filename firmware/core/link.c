@@ -64,12 +64,19 @@ static uint8_t position_after(uint8_t position) {
   return position == 255 ? 1 : (uint8_t)(position + 1);
 }
 
+/* The host needs the full encoder count that follows from the new zero. */
+static bool receive_zero(ecu_link* link, ecu_channel* channel, const frame_parameter* content) {
+  link->hello_requested = true;
+  return ecu_parameter(channel, content->index, content->value, false);
+}
+
 /* Position 0 begins a set; the same position again is a repeated frame; a gap invalidates the
  * set. */
 static bool receive_parameter(ecu_link* link, const frame_parameter* content) {
   const uint8_t k = content->channel, last_position = link->last_position[k];
   ecu_channel* channel = link->channel[k];
   if (!channel) return false;
+  if (content->index == ECU_ZERO) return receive_zero(link, channel, content);
   if (content->position != 0 && content->position == last_position) {
     ++link->repeated;
     return false;
@@ -123,6 +130,7 @@ static void pack_health(const ecu_link* link, uint8_t k, uint8_t page, const ecu
                                 .warning = ecu_is_warning(channel),
                                 .lost = (uint8_t)link->lost,
                                 .corrupt = (uint8_t)link->corrupt,
+                                .zero_known = channel->zero_known,
                                 .request = (uint8_t)reading->request,
                                 .setpoint = reading->setpoint,
                                 .rejected = (uint16_t)channel->rejected_setpoints,

@@ -8,6 +8,7 @@ namespace {
 
 static_assert(ECU_PARAMETER_COUNT < 63, "a parameter's index has 6 bits on the bus");
 constexpr std::uint8_t no_parameter = 63;
+static_assert(ECU_ZERO < no_parameter);
 constexpr std::uint8_t last_position = 255;  // of a PARAMETER in a set; continues at 1
 
 /// The command as sent on the bus. An unknown request becomes a set-point that every ECU rejects.
@@ -128,6 +129,7 @@ std::span<const CanFrame> Gateway::parameters(const EcuParameter& message) {
     const frame_parameter content{requested.channel, std::min(requested.index, no_parameter),
                                   requested.commit, channel.next_position, requested.value};
     frame_pack_parameter(&parameters_.emplace_back(), requested.ecu, &content);
+    if (requested.index == ECU_ZERO) continue;  // not part of a set
     const int next = content.position == last_position ? 1 : content.position + 1;
     channel.next_position = static_cast<std::uint8_t>(requested.commit ? 0 : next);
   }

@@ -137,6 +137,7 @@ FrameResult Gateway::receive_health(Ecu& ecu, const CanFrame& frame) {
     counts =
         channel.counter.known ? frame_unwrap(content.encoder_counts, low) : content.encoder_counts;
     channel.encoder_known = true;
+    samples(tick_.channels)[static_cast<std::size_t>(index)].zero_known = content.zero_known;
   } else {
     channel.followed = {content.request, content.setpoint};
     EcuChannelSample& sample = samples(tick_.channels)[static_cast<std::size_t>(index)];
@@ -189,6 +190,7 @@ void Gateway::reset_counters(Ecu& ecu) {
     Channel& channel = channels_[static_cast<std::size_t>(index)];
     channel.counter = {};
     channel.encoder_known = false;
+    samples(tick_.channels)[static_cast<std::size_t>(index)].zero_known = false;
     channel.sent = channel.followed = {};
     channel.next_position = 0;
   }

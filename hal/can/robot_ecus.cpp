@@ -119,6 +119,18 @@ std::span<const CanFrame> RobotEcus::boot(frame_reset_cause cause) {
   return frames_;
 }
 
+std::span<const CanFrame> RobotEcus::reset(int address, frame_reset_cause cause) {
+  frames_.clear();
+  Ecu* ecu = find(address);
+  if (!ecu) return frames_;
+  const ecu_link last = ecu->link;
+  ecu_link_init(&ecu->link, last.ecu, last.channel[0], last.channel[1], last.analog_inputs);
+  ecu->link.serial = last.serial;
+  ecu->link.hello_requested = true;
+  ecu_link_pack_boot(&ecu->link, cause, &frames_.emplace_back());
+  return frames_;
+}
+
 bool RobotEcus::answered() const {
   return std::all_of(ecus_.begin(), ecus_.end(), [](const Ecu& ecu) {
     const bool commanded = ecu.link.channel[0] || ecu.link.channel[1];

@@ -40,6 +40,10 @@ class RobotEcus {
   /// One boot frame of each ECU; valid until the next call.
   std::span<const CanFrame> boot(frame_reset_cause cause);
 
+  /// Resets the link of one ECU; returns its boot frame, valid until the next call. Its next frames are
+  /// all frames, like `repeat`.
+  std::span<const CanFrame> reset(int address, frame_reset_cause cause);
+
   /// True if every ECU that sent in this tick has received a command computed from the tick.
   bool answered() const;
 

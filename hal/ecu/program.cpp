@@ -121,7 +121,11 @@ class Program {
   }
 
   void handle(wire_kind kind) {
-    if (kind == WIRE_READINGS) wire_unpack_readings(&reader_, &period_.readings), run_period();
+    if (kind == WIRE_READINGS) {
+      wire_unpack_readings(&reader_, &period_.readings);
+      wire_count_from_reset(&counters_, &period_.readings);
+      run_period();
+    }
     if (kind != WIRE_FAULT) return;
     wire_fault fault;
     wire_unpack_fault(&reader_, &fault);
@@ -167,6 +171,7 @@ class Program {
   std::unique_ptr<erp::CanBus> bus_;
   int converters_, timer_;
   wire_reader reader_{};
+  wire_counters counters_{};
   bool readings_requested_ = false;  ///< the next readings were requested
   int silent_periods_ = 0;           ///< since the last readings
   unsigned host_wait_periods_ = 0;   ///< lockstep: periods of waiting for the host

@@ -1,6 +1,8 @@
 #pragma once
+#include <array>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "interfaces/robot/actuator.hpp"
@@ -95,6 +97,9 @@ struct Mirror {
   }
 };
 
+/// Where the robot is when its ECUs are switched on; their encoders then count from 0.
+enum class SwitchedOn { anywhere, starting_pose };
+
 /// A robot. `read_robot` applies includes, mirrors and pretensions; their lists are then empty.
 struct Robot {
   static constexpr auto element = "robot";
@@ -102,6 +107,7 @@ struct Robot {
       "Robot with tendons or drives, or a part of one that another file includes.";
   xml::Place place;
   std::string name;
+  SwitchedOn switched_on = SwitchedOn::anywhere;
   std::vector<Skeleton> skeletons;  ///< one per part; `bodies()` and `joints()` combine them
   std::vector<MotorType> motor_types;
   std::vector<SensorType> sensor_types;
@@ -120,6 +126,12 @@ struct Robot {
     v.required("name", name,
                "Name of the robot; key of its messages on the bus. Effects on the whole robot "
                "refer to it.");
+    v("switched_on", switched_on,
+      "Where the robot is whenever its ECUs are switched on. starting_pose: always in its starting "
+      "pose, with all lines as long as in robot.xml; the plant sets the zeros of the encoders there, "
+      "if the joint sensors agree within 0.052 rad. anywhere: the zeros are unknown until a "
+      "potentiometer or `erp home` sets them, and length references are refused. Of an included "
+      "file it is ignored.");
     v.list(includes);
     v.list(mirrors);
     v.list(skeletons);
@@ -159,3 +171,10 @@ Robot read_robot(const std::string& file);
 std::string write_robot(const Robot& robot);
 
 }  // namespace erp
+
+template <>
+struct xml::Names<erp::SwitchedOn> {
+  static constexpr auto list = std::to_array<std::pair<const char*, erp::SwitchedOn>>(
+      {{"anywhere", erp::SwitchedOn::anywhere},
+       {"starting_pose", erp::SwitchedOn::starting_pose}});
+};

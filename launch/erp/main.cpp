@@ -40,7 +40,7 @@ struct Family {
 /// The verbs by purpose, as `erp` without a verb lists them.
 const std::vector<Family> families{
     {"Run a robot, simulated or real", {"launch", "check", "doctor", "help"}},
-    {"Command a running robot", {"send", "set", "stop"}},
+    {"Command a running robot", {"home", "send", "set", "stop"}},
     {"Inspect a running graph", {"ps", "ls", "graph", "hz", "echo", "delay"}},
     {"Evaluate recordings", {"log"}},
     {"Describe and calibrate a robot", {"model", "calibrate"}},

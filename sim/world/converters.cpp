@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace sim {
 namespace {
@@ -88,12 +89,17 @@ void Converters::measure(const World& world) {
   for (std::size_t k = 0; k < channels_.size(); ++k) {
     Channel& channel = channels_[k];
     const ActuatorCounts counts = channel.readings.latest(world.time_s()).value;
-    ecu_inputs inputs{counts.encoder, counts.current, counts.tension};
+    ecu_inputs inputs{counts.encoder - channel.start_counts, counts.current, counts.tension};
     if (channel.wiper) inputs.potentiometer_counts = analogs_[*channel.wiper].counts;
     if (faults_)
       faults_->apply_fault(k, world.time_s(), channel.sensors.scale(), channel.inputs, inputs);
     channel.inputs = inputs;
   }
+}
+
+void Converters::restart_encoder(std::size_t actuator) {
+  Channel& channel = channels_[actuator];
+  channel.start_counts += std::exchange(channel.inputs.encoder_counts, 0);
 }
 
 void Converters::pass_period(World& world, std::span<const double> voltage_V) {

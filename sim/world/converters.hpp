@@ -25,6 +25,7 @@ class Converters {
     ActuatorSensors sensors;
     Sampled<ActuatorCounts> readings;
     ecu_inputs inputs{};                    ///< as the ECU reads them
+    std::int32_t start_counts = 0;          ///< encoder at the last reset of the ECU
     std::optional<std::size_t> wiper = {};  ///< index of the analog input with its potentiometer
   };
   /// An analog input: a joint's angle or an actuator's potentiometer.
@@ -51,6 +52,9 @@ class Converters {
   void pass_period(World& world, std::span<const double> voltage_V);
   /// The same for another duration.
   void pass(World& world, std::span<const double> voltage_V, double duration_s);
+
+  /// The encoder of an actuator counts from 0 at its present position.
+  void restart_encoder(std::size_t actuator);
 
   std::span<const Channel> channels() const { return channels_; }
   std::span<const Analog> analogs() const { return analogs_; }

@@ -78,10 +78,16 @@ void FaultInjection::apply_fault(World& world) const {
       world.snap(placed.actuator);
 }
 
-std::vector<const InjectedFault*> FaultInjection::beginning(double time_s, double tick_s) const {
-  std::vector<const InjectedFault*> beginning_faults;
+bool FaultInjection::has(FaultKind kind) const {
+  return std::ranges::any_of(list_, [&](const Placed& p) { return p.fault.kind == kind; });
+}
+
+std::vector<FaultInjection::Beginning> FaultInjection::beginning(double time_s,
+                                                                 double tick_s) const {
+  std::vector<Beginning> beginning_faults;
   for (const Placed& placed : list_)
-    if (begins(placed.fault, time_s, tick_s)) beginning_faults.push_back(&placed.fault);
+    if (begins(placed.fault, time_s, tick_s))
+      beginning_faults.push_back({&placed.fault, placed.ecu});
   return beginning_faults;
 }
 

@@ -24,6 +24,7 @@ enum class FaultKind {
   over_current,   ///< Hall sensor at its rail
   hot,            ///< temperature reading of `counts`
   supply_low,     ///< supply reading of `counts`
+  reset,          ///< of the ECU (virtual ECUs): it boots, and its encoders count from 0
   tendon_snaps,   ///< the tendon exerts no tension from then on
   hang,           ///< separate ECU only: its program is in an endless loop
   busy,           ///< separate ECU only: work takes longer than a period
@@ -42,7 +43,7 @@ struct InjectedFault {
   int counts = 0;
   void visit(auto& v) {
     v.required("kind", kind, "Fault; sim/world/README.md describes each.");
-    v.required("on", on, "Actuator of the fault; for hang, busy and bus_off the ECU.");
+    v.required("on", on, "Actuator of the fault; for reset, hang, busy and bus_off its ECU.");
     v.required("at_s", at_s, {xml::at_least_zero, "Simulated time at which the fault begins."});
     v("for_s", for_s, {xml::positive, "Length of the fault."});
     v("counts", counts, {xml::Range{0, 65535}, "Reading in counts; used by hot and supply_low."});
@@ -67,8 +68,13 @@ class FaultInjection {
   };
   /// Faults of ECU programs that begin in the tick at `time_s`.
   std::vector<ProgramFault> program_faults(double time_s, double tick_s) const;
+  struct Beginning {
+    const InjectedFault* fault;
+    int ecu;
+  };
   /// All faults that begin in the tick at `time_s`.
-  std::vector<const InjectedFault*> beginning(double time_s, double tick_s) const;
+  std::vector<Beginning> beginning(double time_s, double tick_s) const;
+  bool has(FaultKind kind) const;
   bool empty() const { return list_.empty(); }
   /// Whether the list contains a fault of an ECU program, which needs a separate ECU.
   bool needs_separate_ecus() const;
@@ -102,6 +108,7 @@ struct xml::Names<sim::FaultKind> {
        {"over_current", sim::FaultKind::over_current},
        {"hot", sim::FaultKind::hot},
        {"supply_low", sim::FaultKind::supply_low},
+       {"reset", sim::FaultKind::reset},
        {"tendon_snaps", sim::FaultKind::tendon_snaps},
        {"hang", sim::FaultKind::hang},
        {"busy", sim::FaultKind::busy},

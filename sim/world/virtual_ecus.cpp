@@ -24,6 +24,7 @@ VirtualEcus::VirtualEcus(Setup&& setup)
            ++setup.seed) {
   for (ecu_channel& channel : firmware_) {
     ecu_init(&channel);
+    ecu_set_zero(&channel, setup.options.zeros_known, 0);
     channel_pointers_.push_back(&channel);
   }
 }
@@ -33,6 +34,15 @@ ecu_channel* VirtualEcus::find(int ecu, int number) {
   for (std::size_t k = 0; k < channels.size(); ++k)
     if (channels[k].ecu == ecu && channels[k].number == number) return &firmware_[k];
   return nullptr;
+}
+
+void VirtualEcus::reset(int ecu) {
+  const auto channels = converters_.channels();
+  for (std::size_t k = 0; k < channels.size(); ++k) {
+    if (channels[k].ecu != ecu) continue;
+    ecu_init(&firmware_[k]);
+    converters_.restart_encoder(k);
+  }
 }
 
 void VirtualEcus::receive(const erp::EcuCommand& command) {
@@ -96,7 +106,8 @@ void VirtualEcus::report(erp::EcuFrame& frame) const {
         erp::EcuChannelSample{
             static_cast<std::uint8_t>(c.ecu), static_cast<std::uint8_t>(c.number), measured_,
             static_cast<std::uint8_t>(f.state), static_cast<std::uint8_t>(f.fault),
-            static_cast<std::uint8_t>(f.request), f.setpoint, c.inputs.encoder_counts, f.duty,
+            static_cast<std::uint8_t>(f.request), f.setpoint, f.zero_known,
+            c.inputs.encoder_counts + f.zero_counts, f.duty,
             c.inputs.current_counts, c.inputs.tension_counts,
             static_cast<std::uint8_t>(f.accepted_commits & 7u),
             static_cast<std::uint8_t>(f.rejected_commits)});

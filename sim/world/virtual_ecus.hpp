@@ -24,6 +24,8 @@ namespace sim {
 struct VirtualEcuOptions {
   int substeps = 2;        ///< physics steps per tick; 2: 1 kHz
   std::uint64_t seed = 1;  ///< of sensor noise and bus effects; each derives its own from it
+  /// The ECUs know the zeros of their encoders at the start, where the lines are as in robot.xml.
+  bool zeros_known = true;
 };
 
 class VirtualEcus {
@@ -36,6 +38,9 @@ class VirtualEcus {
 
   /// Faults to inject from now on; null: none. Not owned.
   void inject(const FaultInjection* faults) { converters_.inject(faults); }
+
+  /// Resets an ECU, like a brown-out: boot, no gains, its encoders count from 0 at the present position.
+  void reset(int ecu);
 
   /// Messages from the bus. Channels that the robot does not have are ignored.
   void receive(const erp::EcuCommand& command);

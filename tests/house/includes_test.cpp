@@ -103,7 +103,7 @@ const std::vector<Rule> rules{
       "launch/erp/run/", "launch/erp/gap/", "sim/model/", "sim/control/", "sim/learning/"}},
     {"launch/erp/command/",
      {"interfaces/", "components/node/", "launch/erp/text/", "launch/erp/verbs/",
-      "launch/erp/inspect/"}},
+      "launch/erp/inspect/", "sim/world/"}},
     {"launch/erp/", {"interfaces/", "launch/erp/"}},
 };
 

@@ -2,6 +2,7 @@
 #include "firmware/board/cortex_m/usart.h"
 
 static wire_reader reader;
+static wire_counters counters;
 static wire_fault injected; /* since the last converters_fault */
 static uint8_t own_address;
 
@@ -25,7 +26,10 @@ bool converters_done(board_readings* readings) {
   for (uint8_t byte; usart_take(USART_ROBOT, &byte);) {
     const wire_kind kind = wire_take(&reader, byte);
     if (kind == WIRE_FAULT) wire_unpack_fault(&reader, &injected);
-    if (kind == WIRE_READINGS) wire_unpack_readings(&reader, readings);
+    if (kind == WIRE_READINGS) {
+      wire_unpack_readings(&reader, readings);
+      wire_count_from_reset(&counters, readings);
+    }
     readings_received = readings_received || kind == WIRE_READINGS;
   }
   return readings_received;

@@ -31,6 +31,21 @@ struct SendOptions {
 /// std::runtime_error with the owner and its priority if another controller keeps an actuator.
 int send_command(const SendOptions& options, std::ostream& out);
 
+struct HomeOptions {
+  std::string robot;
+  std::vector<std::string> actuators;  ///< empty: those whose zero is unknown
+  bool all = false;                    ///< every actuator
+  bool here = false;  ///< the robot is in its starting pose now; without moving it
+  double tension_N = 12;  ///< largest tension of a line while homing
+  int priority = hand_priority;
+  std::string xml;  ///< robot.xml; empty: that of the running plant
+};
+/// Sets the zeros of encoders. Without `here` it winds the lines gently until the robot rests, and
+/// computes their lengths from joint sensors, known lines, tensions and robot.xml; if these do not
+/// determine the pose, from six poses (sim/world/homing_estimate.hpp). Throws
+/// std::runtime_error with the reason if an actuator is not homed; the actuators are released.
+int home_robot(const HomeOptions& options, std::ostream& out);
+
 struct SetOptions {
   std::string robot, actuator;
   std::vector<std::pair<std::string, double>> gains;

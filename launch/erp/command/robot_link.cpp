@@ -65,6 +65,7 @@ void RobotLink::find_robots() {
   if (!watch(node::discovery_ns() + margin_ns, [] { return false; }))
     throw std::runtime_error("interrupted");
   peers.discover();
+  peers_ = peers.others();
   std::erase_if(robots_, [](const auto& entry) { return !entry.second.frame.actuators._length; });
   for (const auto& peer : peers.others())
     if (peer.role == node::plant_role && !robots_.contains(peer.robot))
@@ -88,23 +89,30 @@ std::string RobotLink::choose(const std::string& name) const {
   throw std::invalid_argument("several robots are running: " + all + "; choose one with --robot");
 }
 
-void RobotLink::command(const std::string& robot, const std::vector<std::string>& actuators,
-                        std::uint8_t mode, double reference, std::int32_t priority) {
+void RobotLink::command(const std::string& robot,
+                        const std::vector<erp::ActuatorReference>& references,
+                        std::int32_t priority) {
   erp::ActuatorCommand message;
   erp::assign(message.robot, robot);
   erp::assign(message.controller, controller_);
   message.stamp_ns = node::wall_ns();
   message.answers = robots_.at(robot).frame.sequence;
   message.priority = priority;
+  for (const auto& reference : references) erp::append(message.actuators, reference);
+  if (!commands_) commands_.emplace(bus_.participant());
+  commands_->write(message);
+}
+
+void RobotLink::command(const std::string& robot, const std::vector<std::string>& actuators,
+                        std::uint8_t mode, double reference, std::int32_t priority) {
+  std::vector<erp::ActuatorReference> references;
   for (const auto& actuator : actuators) {
-    erp::ActuatorReference added{};
+    erp::ActuatorReference& added = references.emplace_back();
     erp::assign(added.name, actuator);
     added.mode = mode;
     added.reference = reference;
-    erp::append(message.actuators, added);
   }
-  if (!commands_) commands_.emplace(bus_.participant());
-  commands_->write(message);
+  command(robot, references, priority);
 }
 
 void RobotLink::send(erp::GainCommand& gains, const std::string& robot, std::int32_t priority) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "components/node/bus.hpp"
+#include "components/node/peer.hpp"
 #include "interfaces/emergency.hpp"
 #include "interfaces/topics.hpp"
 #include "launch/erp/inspect/discovery_listener.hpp"
@@ -47,6 +48,11 @@ class RobotLink {
   const std::set<std::string>& silent_robots() const { return silent_robots_; }
   Robot& robot(const std::string& name) { return robots_.at(name); }
 
+  /// The other participants on the bus, at the time of find_robots.
+  const std::vector<node::Peer>& peers() const { return peers_; }
+
+  void command(const std::string& robot, const std::vector<erp::ActuatorReference>& references,
+               std::int32_t priority);
   /// Sends one reference for each of the actuators; `mode`: erp::Mode or erp::release_mode.
   void command(const std::string& robot, const std::vector<std::string>& actuators,
                std::uint8_t mode, double reference, std::int32_t priority);
@@ -65,6 +71,7 @@ class RobotLink {
   node::Reader<erp::EcuFrame> ecus_{bus_.participant(), bus_.wake()};
   std::map<std::string, Robot> robots_;
   std::set<std::string> silent_robots_;
+  std::vector<node::Peer> peers_;
 };
 
 /// The names of all actuators of a robot.

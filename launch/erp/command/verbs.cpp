@@ -103,11 +103,34 @@ void add_set(CLI::App& app, Chosen& chosen) {
   });
 }
 
+void add_home(CLI::App& app, Chosen& chosen) {
+  auto* verb = app.add_subcommand(
+      "home", "Set the zeros of encoders after a reset of their ECUs: winds the lines gently until "
+              "the robot rests, and computes their lengths from robot.xml and the sensors");
+  auto options = std::make_shared<HomeOptions>();
+  verb->add_option("actuators", options->actuators,
+                   "actuators (default: those whose zero is unknown)");
+  verb->add_flag("--all", options->all, "every actuator");
+  verb->add_flag("--here", options->here,
+                 "the robot is in its starting pose now: sets the zeros without moving it");
+  verb->add_option("--tension", options->tension_N, "largest tension of a line while homing, N")
+      ->check(CLI::Range(5.0, 15.0))
+      ->capture_default_str();
+  verb->add_option("--xml", options->xml, "robot.xml (default: that of the running plant)");
+  add_robot_option(*verb, options->robot, "the only one on the bus");
+  verb->add_option("--priority", options->priority, "must exceed that of the actuators' owner")
+      ->check(below_emergency())
+      ->capture_default_str();
+  verb->callback(
+      [options, &chosen] { chosen = [options] { return home_robot(*options, std::cout); }; });
+}
+
 }  // namespace
 
 void add_command(CLI::App& app, Chosen& chosen) {
   add_send(app, chosen);
   add_set(app, chosen);
+  add_home(app, chosen);
   add_stop(app, chosen);
 }
 

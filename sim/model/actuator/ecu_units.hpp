@@ -24,6 +24,7 @@ struct EcuUnits {
   }
   /// Change of the line length since power-on; negative: wound up.
   double line_m(double shaft) const { return -radius_m * shaft; }
+  double shaft_of_line_rad(double line) const { return -line / radius_m; }
   double tension_N(std::uint16_t counts) const {
     return (counts - tension_zero_counts) * tension_N_per_count;
   }

@@ -36,6 +36,7 @@ struct Bench {
   Plant plant;
   std::int64_t now_ns = 1000 * ms;
   std::uint64_t sequence = 0;
+  bool zero_known = true;
   explicit Bench(erp::SafeAction safe = erp::SafeAction::relax) : Bench(one_muscle(safe)) {}
   explicit Bench(const erp::Robot& robot) : plant({}, robot) {}
 
@@ -46,6 +47,7 @@ struct Bench {
     frame.stamp_ns = now_ns;
     erp::EcuChannelSample channel{};
     channel.fresh = true, channel.state = static_cast<std::uint8_t>(state), channel.fault = fault;
+    channel.zero_known = zero_known;
     channel.encoder_counts = encoder, channel.tension_counts = tension;
     erp::append(frame.channels, channel);
     plant.sense(frame, now_ns);

@@ -13,6 +13,7 @@ TEST_CASE("ECU counts are converted to SI and references to counts") {
   erp::EcuFrame frame;
   erp::EcuChannelSample channel{};
   channel.fresh = true, channel.state = ECU_STATE_RUNNING, channel.encoder_counts = 2048 * 128;
+  channel.zero_known = true;
   channel.tension_counts = 4095, channel.duty_counts = -1023, channel.current_counts = 1024;
   erp::append(frame.channels, channel);
   const auto& sample = bench.plant.sense(frame, bench.now_ns).actuators._buffer[0];

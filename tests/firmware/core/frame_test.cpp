@@ -156,13 +156,15 @@ TEST_CASE("analog, health, parameter and emergency frames are unchanged by pack 
                          .encoder_counts = pick(INT32_MIN, INT32_MAX),
                          .warning = random_bool(),
                          .lost = random_byte(0, 255),
-                         .corrupt = random_byte(0, 255)};
+                         .corrupt = random_byte(0, 255),
+                         .zero_known = random_bool()};
     frame_health p_out{};
     frame_pack_health(&frame, 9, random_byte(0, 1), &p);
     REQUIRE(frame_unpack_health(&frame, &p_out));
-    CHECK(std::tie(p.page, p.counter, p.encoder_counts, p.warning, p.lost, p.corrupt) ==
-          std::tie(p_out.page, p_out.counter, p_out.encoder_counts, p_out.warning, p_out.lost,
-                   p_out.corrupt));
+    CHECK(std::tie(p.page, p.counter, p.encoder_counts, p.warning, p.lost, p.corrupt,
+                   p.zero_known) == std::tie(p_out.page, p_out.counter, p_out.encoder_counts,
+                                             p_out.warning, p_out.lost, p_out.corrupt,
+                                             p_out.zero_known));
 
     const frame_health f{.page = 1,
                          .counter = random_byte(0, 7),

@@ -236,6 +236,27 @@ TEST_CASE(
   CHECK(pair.simulated.channels[0].rejected_commits == 1);
 }
 
+TEST_CASE("a zero of an encoder reaches its ECU in the middle of a gain set") {
+  Pair pair;
+  pair.arm();
+  pair.receive(pair.report());
+  CHECK_FALSE(pair.sample(0).zero_known);
+  const auto before = pair.sample(0).encoder_counts;
+  const std::uint32_t commits = pair.simulated.channels[0].accepted_commits;
+  constexpr std::int32_t added = 700'000;  // more than the 16 bits of STATUS
+  erp::EcuParameter message;
+  erp::append(message.values, erp::EcuParameterValue{3, 0, ECU_PARAMETER_LENGTH_KP, false, 20});
+  erp::append(message.values, erp::EcuParameterValue{3, 0, ECU_ZERO, false, added});
+  erp::append(message.values, erp::EcuParameterValue{3, 0, ECU_PARAMETER_CURRENT_KP, true, 1});
+  pair.send(pair.gateway.parameters(message));
+  CHECK(pair.simulated.channels[0].accepted_commits == commits + 1);
+  pair.receive(pair.report());
+  CHECK(pair.sample(0).zero_known);
+  CHECK(std::abs(pair.sample(0).encoder_counts - before - added) < 1000);  // the rig's own motion
+  CHECK(difference(pair.gateway.frame(), pair.simulated.frame) == "");
+  CHECK_FALSE(pair.sample(1).zero_known);
+}
+
 TEST_CASE("two actuators on one channel, or two sensors on one input, are refused") {
   auto robot = robot_of(2);
   robot.actuators[1].channel = 0;
