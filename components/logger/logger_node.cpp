@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -19,6 +21,9 @@ namespace {
 constexpr int queue_depth = 20'000;
 constexpr std::int64_t take_period_ns = 2'000'000;
 constexpr std::int64_t discover_period_ns = 250'000'000;
+constexpr std::int64_t space_period_ns = 5'000'000'000;  // chosen: between checks of the free space
+constexpr double min_space_s = 600;                      // chosen: recording time left
+constexpr double min_space_bytes = 50e6;                 // chosen
 
 std::string content(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
@@ -119,6 +124,8 @@ void LoggerNode::take_all() {
   for (auto& [name, topic] : topics_)
     topic.reader->take([&](const node::RawSample& sample) { write(topic, sample); });
   recorder_.tick(node::monotonic_ns());
+  report_disk();
+  check_space();
   if (const auto missing = recorder_.missing(); missing > missing_reported_) {
     if (!missing_reported_)
       node_.report(
@@ -126,6 +133,45 @@ void LoggerNode::take_all() {
           std::to_string(missing) + " messages are missing; erp log info counts them by topic");
     missing_reported_ = missing;
   }
+}
+
+/// A full disk ends neither the run nor the recording.
+void LoggerNode::report_disk() {
+  const bool fails = !recorder_.failure().empty();
+  if (fails && !is_failing_)
+    node_.report(erp::Severity::fault, "", "not_written",
+                 recorder_.failure() + "; messages are lost until a write succeeds");
+  if (!fails && is_failing_) {
+    const auto& lost = recorder_.lost();
+    node_.report(erp::Severity::warning, "", "written_again",
+                 "the recording resumes; " + std::to_string(lost.count - lost_reported_) +
+                     " messages are lost");
+    lost_reported_ = lost.count;
+  }
+  is_failing_ = fails;
+}
+
+void LoggerNode::check_space() {
+  const auto now_ns = node::monotonic_ns();
+  if (is_space_reported_ || now_ns - space_checked_ns_ < space_period_ns) return;
+  const double elapsed_s = 1e-9 * static_cast<double>(now_ns - space_checked_ns_);
+  const double written = static_cast<double>(recorder_.bytes() - bytes_at_check_);
+  const bool is_first = std::exchange(space_checked_ns_, now_ns) == 0;
+  bytes_at_check_ = recorder_.bytes();
+  std::error_code error;
+  const auto folder = std::filesystem::absolute(recorder_.path()).parent_path();
+  const auto space = std::filesystem::space(folder, error);
+  if (error) return;
+  const auto free_bytes = static_cast<double>(space.available);
+  const bool is_short = !is_first && free_bytes < min_space_s * written / elapsed_s;
+  if (!is_short && free_bytes > min_space_bytes) return;
+  is_space_reported_ = true;
+  char text[96];
+  std::snprintf(text, sizeof text, "%.0f MB are free in ", 1e-6 * free_bytes);
+  const std::string left =
+      is_short ? ", enough for " + std::to_string(std::lround(free_bytes * elapsed_s / written)) + " s"
+               : "";
+  node_.report(erp::Severity::warning, "", "disk_space", text + folder.string() + left);
 }
 
 void LoggerNode::write(Topic& topic, const node::RawSample& raw) {

@@ -135,7 +135,14 @@ Entity make_topic(const Entity& participant, const dds_topic_descriptor_t& type,
 
 Entity make_writer(const Entity& participant, const Entity& topic, int depth) {
   const Qos qos(depth);
-  return {dds_create_writer(participant.id(), topic.id(), qos.qos, nullptr), "create writer"};
+  const dds_entity_t writer = dds_create_writer(participant.id(), topic.id(), qos.qos, nullptr);
+  if (writer == DDS_RETCODE_NOT_ALLOWED_BY_SECURITY) {
+    char name[256] = "";
+    dds_get_name(topic.id(), name, sizeof name);
+    throw std::invalid_argument("ERP_SECURITY=" + security_folder() + ": its identity may not write " +
+                                name + "; use the folder of a role that may, or the one above roles");
+  }
+  return {writer, "create writer"};
 }
 
 DataCallback wake_callback(Wake& wake) {

@@ -134,6 +134,12 @@ std::string security_folder() {
   return fs::absolute(value).lexically_normal();
 }
 
+std::string security_folder_of(const std::string& role) {
+  const fs::path folder = security_folder();
+  const fs::path of_role = folder / Files::roles / role;
+  return fs::is_directory(of_role) ? of_role : folder;
+}
+
 std::string security_config() {
   const fs::path folder = security_folder();
   if (folder.empty()) return "";

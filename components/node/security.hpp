@@ -15,11 +15,16 @@ struct SecurityFiles {
   static constexpr const char* governance = "governance.p7s";  ///< which data is protected, and how
   static constexpr const char* permissions =
       "permissions.p7s";  ///< who may publish and subscribe to what
+  static constexpr const char* roles = "roles";  ///< subfolder with one security folder per role
 };
 
 /// The absolute path of the folder in ERP_SECURITY; "" when the variable is not set.
 /// Throws std::invalid_argument when it is set to an empty string.
 std::string security_folder();
+
+/// The folder with the identity of one role, inside that folder; the folder itself if it has none,
+/// because it was written by version 0.1.
+std::string security_folder_of(const std::string& role);
 
 /// Cyclone's configuration for that folder; "" without one. Throws std::invalid_argument with
 /// place, value and remedy if a file is missing, expired, of another authority, or a key is

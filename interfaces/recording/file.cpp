@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 namespace recording {
 
@@ -60,8 +61,17 @@ void OutputFile::close() {
   if (::close(descriptor) < 0) fail("close", errno);
 }
 
+void OutputFile::remove() {
+  struct stat status {};
+  const bool is_file = ::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode);
+  ::close(std::exchange(descriptor_, -1));
+  if (is_file) ::unlink(path_.c_str());
+}
+
 InputFile::InputFile(std::string path)
-    : path_(std::move(path)), descriptor_(::open(path_.c_str(), O_RDONLY | O_CLOEXEC)) {
+    : path_(std::move(path)),
+      // O_NONBLOCK: opening a pipe does not wait for its writer.
+      descriptor_(::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
   if (descriptor_ < 0)
     throw RecordingError(path_ + ": cannot open: " + std::strerror(errno) + "; check the name");
   struct stat status {};

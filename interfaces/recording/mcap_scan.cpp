@@ -5,6 +5,9 @@
 namespace recording {
 namespace {
 
+/// Recordings of robots are compressed by a factor of 5 to 30. A larger one may fill the memory. Chosen.
+constexpr std::uint64_t max_unpacked_bytes = std::uint64_t{512} << 20, max_compression = 1000;
+
 /// Largest region of messages outside chunks; chosen: the size of a chunk.
 constexpr std::uint64_t max_message_region_bytes = 1u << 20;
 
@@ -43,7 +46,7 @@ class Scanner {
   const InputFile& file_;
   const bool tolerant_;
   Contents contents_;
-  std::uint64_t position_ = 0;
+  std::uint64_t position_ = 0, unpacked_bytes_ = 0;
   std::uint32_t crc_ = 0, data_crc_ = 0;
 };
 
@@ -167,7 +170,12 @@ void Scanner::take_message(ByteReader in, Region region) {
 
 /// Takes all messages of a chunk, or none.
 void Scanner::take_chunk(ByteReader in, Region region) {
+  const ByteReader chunk = in;
   const Bytes records = unpack(in);
+  unpacked_bytes_ += records.size();
+  if (unpacked_bytes_ > max_unpacked_bytes && unpacked_bytes_ / max_compression > position_)
+    chunk.fail("the chunks up to here unpack to " + std::to_string(unpacked_bytes_) +
+               " bytes, more than " + std::to_string(max_compression) + " times their size");
   std::vector<MessageHead> heads;
   ByteReader inside(records, file_.path(), position_, true);
   while (!inside.empty()) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <limits>
+#include <utility>
 
 #include "interfaces/recording/compression.hpp"
 
@@ -33,7 +34,12 @@ McapWriter::McapWriter(std::string path, McapOptions options)
   put(out, std::string_view(""));
   put(out, std::string_view("erp " ERP_VERSION));
   end_record(out, start);
-  append(out);
+  try {
+    append(out);
+  } catch (const WriteError&) {
+    file_.remove();
+    throw;
+  }
 }
 
 McapWriter::~McapWriter() {
@@ -49,9 +55,21 @@ void McapWriter::append(const Bytes& bytes) {
   if (!file_.is_open()) throw RecordingError(path() + ": the recording is closed; open a new one");
   if (failed_)
     throw RecordingError(path() + ": an earlier write failed; the recording ends before it");
-  failed_ = true;
+  failed_ = !options_.continue_after_failure;
   file_.append(bytes);
   failed_ = false;
+  failure_.clear();
+}
+
+void McapWriter::append_or_hold(const Bytes& record) {
+  put(held_, record);
+  try {
+    append(held_);
+    held_.clear();
+  } catch (const WriteError& error) {
+    if (!options_.continue_after_failure) throw;
+    failure_ = error.what();
+  }
 }
 
 std::uint16_t McapWriter::add_schema(std::string name, std::string encoding, std::string data) {
@@ -60,7 +78,7 @@ std::uint16_t McapWriter::add_schema(std::string name, std::string encoding, std
                       std::move(encoding), std::move(data)};
   Bytes record;
   put_schema(record, schema);
-  append(record);
+  append_or_hold(record);
   put(schema_records_, record);
   return schema_count_ = schema.id;
 }
@@ -74,7 +92,7 @@ std::uint16_t McapWriter::add_channel(std::string topic, std::string message_enc
                         std::move(message_encoding), std::move(metadata)};
   Bytes record;
   put_channel(record, channel);
-  append(record);
+  append_or_hold(record);
   put(channel_records_, record);
   return channel_count_ = channel.id;
 }
@@ -109,20 +127,38 @@ void McapWriter::close_chunk() {
   ChunkIndex index;
   index.head = {chunk_.start_ns, chunk_.end_ns, chunk_.records.size(), crc32_of(chunk_.records),
                 zstd ? "zstd" : ""};
-  Bytes out;
+  Bytes out = held_;
+  index.offset = file_.size() + held_.size();
   put_chunk(out, index.head, records);
-  index.offset = file_.size();
-  index.length = out.size();
+  index.length = out.size() - held_.size();
   index.compressed_bytes = records.size();
   for (auto& [channel, messages] : chunk_.index) {
     std::stable_sort(messages.begin(), messages.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
-    index.index_offsets[channel] = index.offset + out.size();
+    index.index_offsets[channel] = file_.size() + out.size();
     put_message_index(out, channel, messages);
   }
-  index.index_length = out.size() - index.length;
-  append(out);
+  index.index_length = out.size() - held_.size() - index.length;
+  try {
+    append(out);
+  } catch (const WriteError& error) {
+    if (!options_.continue_after_failure) throw;
+    return drop_chunk(error);
+  }
+  held_.clear();
   chunks_.push_back(std::move(index));
+  chunk_ = {};
+}
+
+void McapWriter::drop_chunk(const WriteError& error) {
+  failure_ = error.what();
+  if (lost_.count == 0) lost_.first_ns = chunk_.start_ns;
+  lost_.last_ns = std::max(lost_.last_ns, chunk_.end_ns);
+  for (const auto& [channel, messages] : chunk_.index) {
+    lost_.count += messages.size();
+    messages_ -= messages.size();
+    channel_messages_[channel] -= messages.size();
+  }
   chunk_ = {};
 }
 
@@ -154,8 +190,14 @@ void McapWriter::add_metadata(const Metadata& metadata) {
 
 void McapWriter::flush() {
   close_chunk();
+  if (!failure_.empty()) return;
   append({});
-  file_.sync();
+  try {
+    file_.sync();
+  } catch (const WriteError& error) {
+    if (!options_.continue_after_failure) throw;
+    failure_ = error.what();
+  }
 }
 
 void McapWriter::put_statistics(Bytes& out) const {
@@ -204,6 +246,7 @@ void McapWriter::put_summary(Bytes& out) {
 void McapWriter::close() {
   if (!file_.is_open()) return;
   close_chunk();
+  append(std::exchange(held_, {}));
   Bytes end;
   const auto start = begin_record(end, Op::data_end);
   put(end, file_.crc());

@@ -15,12 +15,20 @@ struct McapOptions {
   std::size_t chunk_bytes = 1u << 20;           ///< size at which a chunk is closed, chosen
   std::uint64_t chunk_span_ns = 1'000'000'000;  ///< span of log times at which it is closed, chosen
   bool replace = false;                         ///< overwrite an existing file
+  /// A failed write of a chunk loses its messages and is counted; the next chunk is tried again.
+  bool continue_after_failure = false;
+};
+
+/// Messages lost because they could not be written.
+struct LostMessages {
+  std::uint64_t count = 0, first_ns = 0, last_ns = 0;  ///< log times
 };
 
 /// Writes an MCAP file: chunks with indexes, attachments, a summary. The current chunk is in memory
 /// until it is closed; `flush` writes it to the disk. Every method throws RecordingError (path,
 /// system error) when writing fails; the file then ends with its last complete record and accepts
-/// no further data.
+/// no further data. With `continue_after_failure` only the constructor, `attach` and `close` throw. A
+/// file that could not be begun is removed.
 class McapWriter {
  public:
   explicit McapWriter(std::string path, McapOptions options = {});
@@ -49,7 +57,11 @@ class McapWriter {
   void close();
 
   std::uint64_t message_count() const { return messages_; }
+  /// Why the last write failed; empty: it succeeded.
+  const std::string& failure() const { return failure_; }
+  const LostMessages& lost() const { return lost_; }
   const std::string& path() const { return file_.path(); }
+  std::uint64_t bytes() const { return file_.size(); }  ///< of the file so far
 
  private:
   struct Chunk {
@@ -59,13 +71,18 @@ class McapWriter {
     std::map<std::uint16_t, MessageIndex> index;
   };
   void append(const Bytes& bytes);
+  void append_or_hold(const Bytes& record);
   void close_chunk();
+  void drop_chunk(const WriteError& error);
   void put_summary(Bytes& out);
   void put_statistics(Bytes& out) const;
 
   McapOptions options_;
   OutputFile file_;
   bool failed_ = false;
+  std::string failure_;
+  LostMessages lost_;
+  Bytes held_;  ///< records that could not be written and that later chunks need
   Chunk chunk_;
   Bytes schema_records_, channel_records_, attachment_records_, metadata_records_;
   std::vector<ChunkIndex> chunks_;

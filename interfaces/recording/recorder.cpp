@@ -2,9 +2,14 @@
 
 namespace recording {
 
+static McapOptions continuing(McapOptions options) {
+  options.continue_after_failure = true;
+  return options;
+}
+
 Recorder::Recorder(std::string path, const std::vector<Attachment>& attachments,
                    McapOptions options)
-    : file_(std::move(path), options) {
+    : file_(std::move(path), continuing(options)) {
   for (const Attachment& attachment : attachments) file_.attach(attachment);
   file_.flush();
 }
@@ -20,11 +25,20 @@ std::size_t Recorder::add_topic(const std::string& topic, const MessageType& typ
                                         : file_.add_schema(type.name, "ros2msg", type.schema);
     schemas_[key] = schema;
   }
-  if (!type.idl.empty() && idls_.insert(type.name).second)
-    file_.attach(type.name + ".idl", "text/plain", type.idl);
+  attach_idl(type);
   topics_.push_back({topic, key, schema, {}});
   counts_.push_back({topic});
   return topics_.size() - 1;
+}
+
+/// Without space it is left out: readers need only the schema.
+void Recorder::attach_idl(const MessageType& type) {
+  if (type.idl.empty() || !idls_.insert(type.name).second) return;
+  try {
+    file_.attach(type.name + ".idl", "text/plain", type.idl);
+  } catch (const WriteError&) {
+    idls_.erase(type.name);
+  }
 }
 
 Recorder::Writer& Recorder::writer_of(std::size_t topic, std::string_view name) {
@@ -63,7 +77,17 @@ void Recorder::flush() {
   unflushed_since_ns_.reset();
 }
 
-void Recorder::close() { file_.close(); }
+/// The file contains how many messages were lost, and when.
+void Recorder::close() {
+  if (file_.lost().count) {
+    file_.flush();
+    file_.add_metadata({"lost_messages",
+                        {{"count", std::to_string(file_.lost().count)},
+                         {"first_log_time_ns", std::to_string(file_.lost().first_ns)},
+                         {"last_log_time_ns", std::to_string(file_.lost().last_ns)}}});
+  }
+  file_.close();
+}
 
 std::uint64_t Recorder::missing() const {
   std::uint64_t sum = 0;

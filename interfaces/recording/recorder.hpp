@@ -37,8 +37,9 @@ struct TopicCount {
 /// every gap in the sequence numbers of a writer. Reads no clock and starts no thread.
 class Recorder {
  public:
-  /// Writes `attachments` to the disk before the first message. This and every other method throw
-  /// RecordingError when writing fails.
+  /// Writes `attachments` to the disk before the first message. This and `close` throw RecordingError
+  /// when writing fails. Between them a failure loses messages, which `lost` counts, and recording
+  /// resumes when a write succeeds.
   Recorder(std::string path, const std::vector<Attachment>& attachments, McapOptions options = {});
 
   /// Returns the topic's handle; the same one for the same topic and type.
@@ -53,6 +54,11 @@ class Recorder {
 
   const std::vector<TopicCount>& counts() const { return counts_; }
   std::uint64_t missing() const;
+  /// See McapWriter.
+  const std::string& failure() const { return file_.failure(); }
+  const LostMessages& lost() const { return file_.lost(); }
+  const std::string& path() const { return file_.path(); }
+  std::uint64_t bytes() const { return file_.bytes(); }
 
   static constexpr std::int64_t flush_period_ns =
       500'000'000;  // chosen: half of the allowed loss, 1 s
@@ -67,6 +73,7 @@ class Recorder {
     std::uint16_t schema = 0;
     std::map<std::string, Writer, std::less<>> writers;
   };
+  void attach_idl(const MessageType& type);
   Writer& writer_of(std::size_t topic, std::string_view name);
 
   McapWriter file_;

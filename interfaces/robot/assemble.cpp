@@ -71,6 +71,7 @@ class Assembler {
   /// The robot of a file together with its included and mirrored parts.
   Robot read_with_parts(const std::string& file) {
     open_files_.push_back(std::filesystem::weakly_canonical(file).string());
+    ++files_;
     Robot robot;
     const xml::Element root = xml::read_document(file);
     xml::throw_if_any(xml::wrong_root(root, Robot::element));
@@ -138,6 +139,12 @@ class Assembler {
                 "remove one of these includes");
       return {};
     }
+    if (files_ >= max_files) {
+      if (files_++ == max_files)
+        add_error("is one file too many: the robot already has " + std::to_string(max_files),
+                  "check for files that include others twice at each level");
+      return {};
+    }
     const auto depth = open_files_.size();
     try {
       return read_with_parts(file);
@@ -149,6 +156,8 @@ class Assembler {
     }
   }
 
+  static constexpr int max_files = 500;  // chosen
+  int files_ = 0;
   std::vector<std::string> open_files_;
   std::vector<xml::Error> errors_;
 };

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
+#include <iterator>
 
 #include "interfaces/xml/words.hpp"
 
@@ -74,24 +74,31 @@ class Tree {
   const char* begin_ = nullptr;
 };
 
-std::string contents(const std::string& file) {
+}  // namespace
+
+std::string text_of_file(const std::string& file, std::uint64_t max_bytes) {
   const Place whole_file{file, 0, 0};
-  std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored))
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status))
     throw_error(whole_file, "no such file", "check the path, or create the file");
-  if (std::filesystem::is_directory(file, ignored))
+  if (std::filesystem::is_directory(status))
     throw_error(whole_file, "is a folder", "give the XML file in it");
+  // A pipe would wait for a writer; a device may have no end.
+  if (!std::filesystem::is_regular_file(status))
+    throw_error(whole_file, "is not a regular file", "give the name of a file");
+  if (const auto size = std::filesystem::file_size(file, error); !error && size > max_bytes)
+    throw_error(whole_file,
+                "has " + std::to_string(size) + " bytes, at most " + std::to_string(max_bytes) +
+                    " are read",
+                "give the right file, or divide it");
   std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  if (!in || !(text << in.rdbuf()).good()) {
-    if (in && in.peek() == std::ifstream::traits_type::eof()) return "";
+  std::string text(std::istreambuf_iterator<char>(in), {});
+  if (!in.eof() && in.fail())
     throw_error(whole_file, std::string("cannot be read: ") + std::strerror(errno),
                 "check its permissions");
-  }
-  return text.str();
+  return text;
 }
-
-}  // namespace
 
 Element parse_document(std::string_view text, const std::string& file) {
   if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
@@ -110,6 +117,6 @@ std::string resolved(const std::string& file, const std::string& from_file) {
   return (std::filesystem::path(from_file).parent_path() / file).lexically_normal().string();
 }
 
-Element read_document(const std::string& file) { return parse_document(contents(file), file); }
+Element read_document(const std::string& file) { return parse_document(text_of_file(file), file); }
 
 }  // namespace xml

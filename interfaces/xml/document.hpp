@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,13 @@ struct Element {
 /// The root element of a text. Throws Errors with one error when the text is not well-formed XML.
 /// `file`: file name in error messages.
 Element parse_document(std::string_view text, const std::string& file);
+
+/// The largest file that `read_document` reads; chosen.
+inline constexpr std::uint64_t max_document_bytes = std::uint64_t{64} << 20;
+
+/// The content of a regular file. Throws Errors when it is missing, unreadable, larger, or a pipe, a
+/// device or a folder.
+std::string text_of_file(const std::string& file, std::uint64_t max_bytes = max_document_bytes);
 
 /// The root element of a file. Throws Errors also when it is missing, unreadable or empty.
 Element read_document(const std::string& file);

@@ -1,6 +1,9 @@
 // Faults on the host side: invalid set-points, corrupt frames, and a snapped tendon.
+#include <atomic>
 #include <cmath>
+#include <thread>
 
+#include "interfaces/emergency.hpp"
 #include "tests/faults/bench.hpp"
 
 using namespace faults;
@@ -83,6 +86,58 @@ TEST_CASE("five consecutive corrupt commands trip, four do not; wrong lengths co
     reaction.add(injected_ns, tripped(injected_ns));
   }
   reaction.check();
+}
+
+/// Sends one reference for all actuators, as a controller of this name.
+class Controller {
+ public:
+  Controller(Bench& bench, const std::string& name, std::int32_t priority)
+      : commands_(bench.participant()) {
+    erp::assign(command_.robot, bench.robot().name);
+    erp::assign(command_.controller, name);
+    command_.priority = priority;
+    for (const auto& actuator : bench.robot().actuators) {
+      erp::ActuatorReference reference{};
+      erp::assign(reference.name, actuator.name);
+      erp::append(command_.actuators, reference);
+    }
+    tests::wait_until([&] { return commands_.matched() > 0; });
+  }
+  void send(std::uint8_t mode, double reference) {
+    command_.stamp_ns = node::wall_ns();
+    for (auto& r : erp::samples(command_.actuators)) r.mode = mode, r.reference = reference;
+    commands_.write(command_);
+  }
+
+ private:
+  node::Writer<erp::ActuatorCommand> commands_;
+  erp::ActuatorCommand command_;
+};
+
+TEST_CASE("one emergency off wins against eight controllers that fill the table of the plant") {
+  Bench bench;
+  std::vector<std::unique_ptr<Controller>> weak;
+  for (int k = 0; k < 8; ++k)
+    weak.push_back(std::make_unique<Controller>(bench, "weak_" + std::to_string(k), -10));
+  Controller emergency(bench, "hand", erp::emergency_priority);
+  std::atomic<bool> is_ending = false;
+  std::thread sender([&] {
+    while (!is_ending) {
+      for (auto& controller : weak) controller->send(std::uint8_t(erp::Mode::force), 3);
+      std::this_thread::sleep_for(2ms);
+    }
+  });
+  ReactionTimes off("eight weak controllers, emergency off", "PWM 0", 22);
+  while (off.needs_more()) {
+    bench.settle();
+    const auto injected_ns = node::wall_ns();
+    emergency.send(std::uint8_t(erp::Mode::off), 0);  // once: the plant latches it
+    off.add(injected_ns, bench.wait_for([&] { return bench.pwm_off(injected_ns); }, 1000));
+    emergency.send(erp::release_mode, 0);
+  }
+  is_ending = true;
+  sender.join();
+  off.check();
 }
 
 /// The rig with 20 N on both tendons; the flexor's tendon snaps after 4 s.

@@ -72,6 +72,20 @@ void print_head(const McapReader& reader, std::ostream& out) {
         << reader.path() << '\n';
 }
 
+/// Messages that the logger could not write, from the metadata that it leaves.
+void print_lost(const McapReader& reader, std::ostream& out) {
+  for (const auto& metadata : reader.contents().metadata) {
+    if (metadata.name != "lost_messages") continue;
+    const auto value = [&](const char* name) {
+      const auto found = metadata.values.find(name);
+      return found == metadata.values.end() ? 0.0 : std::strtod(found->second.c_str(), nullptr);
+    };
+    out << "  " << static_cast<std::uint64_t>(value("count")) << " messages within "
+        << decimal("%.1f s", 1e-9 * (value("last_log_time_ns") - value("first_log_time_ns")))
+        << " could not be written to the disk\n";
+  }
+}
+
 /// Steps of the clock that stamped the frames.
 void print_clock_steps(const McapReader& reader, std::ostream& out) {
   for (const auto& [id, channel] : reader.channels()) {
@@ -110,6 +124,7 @@ int log_info(const std::string& path, std::ostream& out) {
   return guarded([&] {
     const McapReader reader(path);
     print_head(reader, out);
+    print_lost(reader, out);
     print_clock_steps(reader, out);
     out << '\n';
     print_topics(reader, out);

@@ -7,8 +7,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -30,7 +32,7 @@ struct Descriptor {
 
 /// Runs in the child process and executes the program. Makes only async-signal-safe calls before
 /// exec, because the launcher has DDS threads.
-[[noreturn]] void exec_program(char* const* argv, pid_t parent, int death_signal, int input,
+[[noreturn]] void exec_program(char* const* argv, char* const* environment, pid_t parent, int death_signal, int input,
                                int log, int error_pipe) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, death_signal);
@@ -43,7 +45,7 @@ struct Descriptor {
   dup2(log, STDOUT_FILENO);
   dup2(log, STDERR_FILENO);
   close_range(3, ~0u, CLOSE_RANGE_CLOEXEC);  // also sockets that a library opened without O_CLOEXEC
-  execvp(argv[0], argv);
+  execvpe(argv[0], argv, environment);
   const int error = errno;
   [[maybe_unused]] const auto written = write(error_pipe, &error, sizeof error);
   _exit(127);
@@ -57,8 +59,23 @@ std::string to_string(const Ending& ending) {
          ")";
 }
 
+/// Pointers into `added` and into this process's environment.
+static std::vector<char*> environment_with(const std::vector<std::string>& added) {
+  std::vector<char*> entries;
+  for (const auto& entry : added) entries.push_back(const_cast<char*>(entry.c_str()));
+  const auto is_replaced = [&](std::string_view inherited) {
+    return std::ranges::any_of(added, [&](const std::string& entry) {
+      return inherited.starts_with(entry.substr(0, entry.find('=') + 1));
+    });
+  };
+  for (char** entry = environ; *entry; ++entry)
+    if (!is_replaced(*entry)) entries.push_back(*entry);
+  entries.push_back(nullptr);
+  return entries;
+}
+
 Process::Process(const std::vector<std::string>& argv, const std::string& log_file,
-                 int death_signal) {
+                 int death_signal, const std::vector<std::string>& environment) {
   const Descriptor input{open("/dev/null", O_RDONLY | O_CLOEXEC)};
   const Descriptor log{open(log_file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644)};
   if (log.number < 0) fail(errno, log_file);
@@ -69,11 +86,12 @@ Process::Process(const std::vector<std::string>& argv, const std::string& log_fi
   std::vector<char*> arguments;
   for (const auto& argument : argv) arguments.push_back(const_cast<char*>(argument.c_str()));
   arguments.push_back(nullptr);
+  const std::vector<char*> variables = environment_with(environment);
   const pid_t parent = getpid();
   pid_ = fork();
   if (pid_ < 0) fail(errno, "fork");
   if (pid_ == 0)
-    exec_program(arguments.data(), parent, death_signal, input.number, log.number,
+    exec_program(arguments.data(), variables.data(), parent, death_signal, input.number, log.number,
                  error_writer.number);
   setpgid(pid_, pid_);  // both parent and child set it: neither has to wait for the other
   error_writer.close();

@@ -29,8 +29,10 @@ class Process {
  public:
   /// Appends stdout and stderr to `log_file`. Throws std::system_error when the log cannot be
   /// opened or the program cannot be executed.
+  /// `environment`: `NAME=value`, in addition to the launcher's environment or in place of entries
+  /// of it.
   Process(const std::vector<std::string>& argv, const std::string& log_file,
-          int death_signal = SIGKILL);
+          int death_signal = SIGKILL, const std::vector<std::string>& environment = {});
   ~Process();  ///< kills the group if it still runs, and reaps the program
   Process(Process&& other) noexcept;
   Process& operator=(Process&& other) noexcept;

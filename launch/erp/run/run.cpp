@@ -43,6 +43,28 @@ std::string conflict_text(const std::string& component, const std::string& robot
          std::to_string(pid) + "; stop its graph, or set ERP_DOMAIN to another number";
 }
 
+/// The name of the role in a security folder.
+const char* security_role(Role role) {
+  switch (role) {
+    case Role::logger:
+      return "logger";
+    case Role::plant:
+      return "plant";
+    case Role::controller:
+      return "controller";
+    case Role::robot_behind_bus:
+    case Role::device:
+      break;
+  }
+  return "device";
+}
+
+/// With DDS Security a component has the identity of its role.
+std::vector<std::string> environment_of(Role role) {
+  if (node::security_folder().empty()) return {};
+  return {"ERP_SECURITY=" + node::security_folder_of(security_role(role))};
+}
+
 Tuning tuning_of(const Plan& plan) {
   Tuning tuning;
   tuning.restart.max_restarts = plan.max_restarts;
@@ -239,7 +261,8 @@ void Run::spawn(std::size_t index) {
   try {
     // If the launcher is killed, SIGTERM lets the logger close its file.
     const int death_signal = planned.role == Role::logger ? SIGTERM : SIGKILL;
-    members_[index].process.emplace(planned.argv, planned.log_file, death_signal);
+    members_[index].process.emplace(planned.argv, planned.log_file, death_signal,
+                                    environment_of(planned.role));
   } catch (const std::system_error& error) {
     print(planned.name + ": " + error.what());
     supervisor_.on_exit(index, {1, 0}, time_.now_ns());

@@ -116,10 +116,13 @@ class Writer {
     write_into(out.get());
     files_.push_back(file);
   }
-  void write(const char* certificate, const char* key, const Party& party) {
-    write(certificate, 0644, [&](BIO* out) {
+  void write_certificate(const char* name, const Party& party) {
+    write(name, 0644, [&](BIO* out) {
       check(PEM_write_bio_X509(out, party.certificate.get()) == 1, "write a certificate");
     });
+  }
+  void write(const char* certificate, const char* key, const Party& party) {
+    write_certificate(certificate, party);
     write(key, 0600, [&](BIO* out) {
       check(PEM_write_bio_PrivateKey(out, party.key.get(), nullptr, nullptr, 0, nullptr, nullptr) ==
                 1,
@@ -142,19 +145,38 @@ Validity valid_for_days(int days) {
   return {now_s - day_s, now_s + days * day_s};
 }
 
-std::vector<fs::path> make_security(const fs::path& folder, const Validity& validity) {
-  Party authority{.name = "authority"}, robot{.name = security_identity};
-  check(authority.key && robot.key, "make a key");
-  certify(authority, authority, validity);
-  certify(robot, authority, validity);
-  Writer writer(folder);
-  writer.write(Files::authority, Files::authority_key, authority);
-  writer.write(Files::identity, Files::identity_key, robot);
+namespace {
+
+void write_identity(Writer& writer, const SecurityRole& role, const Party& authority,
+                    const Validity& validity) {
+  Party identity{.name = role.name};
+  check(bool(identity.key), "make a key");
+  certify(identity, authority, validity);
+  writer.write(Files::identity, Files::identity_key, identity);
   writer.write(Files::governance, 0644,
                [&](BIO* out) { write_signed(out, governance_text(), authority); });
-  writer.write(Files::permissions, 0644,
-               [&](BIO* out) { write_signed(out, permissions_text(validity), authority); });
-  return writer.files();
+  writer.write(Files::permissions, 0644, [&](BIO* out) {
+    write_signed(out, permissions_text(validity, role), authority);
+  });
+}
+
+}  // namespace
+
+std::vector<fs::path> make_security(const fs::path& folder, const Validity& validity) {
+  Party authority{.name = "authority"};
+  check(bool(authority.key), "make a key");
+  certify(authority, authority, validity);
+  Writer writer(folder);
+  writer.write(Files::authority, Files::authority_key, authority);
+  write_identity(writer, operator_role(), authority, validity);
+  std::vector<fs::path> files = writer.files();
+  for (const SecurityRole& role : component_roles()) {
+    Writer of_role(folder / Files::roles / role.name);
+    of_role.write_certificate(Files::authority, authority);
+    write_identity(of_role, role, authority, validity);
+    files.insert(files.end(), of_role.files().begin(), of_role.files().end());
+  }
+  return files;
 }
 
 }  // namespace launch

@@ -15,7 +15,8 @@ struct Validity {
 Validity valid_for_days(int days);
 
 /// Writes to `folder` a certificate authority, an identity with a certificate issued by it, and the
-/// signed governance and permissions documents. `folder` must be empty or must not exist. Returns
+/// signed governance and permissions documents; in its subfolder `roles` the same for each role of a
+/// component, with its own permissions (security_texts.hpp). `folder` must be empty or must not exist. Returns
 /// the files. Only their owner can read the keys. Throws std::invalid_argument for a folder that is
 /// not empty, std::runtime_error if a file cannot be written.
 std::vector<std::filesystem::path> make_security(const std::filesystem::path& folder,

@@ -5,6 +5,8 @@
 
 #include <ctime>
 
+#include "interfaces/topics.hpp"
+
 namespace launch {
 namespace {
 
@@ -37,28 +39,58 @@ std::string utc(std::int64_t time_s) {
   return fmt::format("{:%Y-%m-%dT%H:%M:%S}", fmt::gmtime(static_cast<std::time_t>(time_s)));
 }
 
-std::string allow(const char* action) {
+using Topics = std::vector<const char*>;
+
+std::string allow(const char* action, const Topics& topics) {
+  if (topics.empty()) return "";
+  std::string listed;
+  for (const char* topic : topics) listed += fmt::format("<topic>{}</topic>", topic);
   return fmt::format(
-      "<allow_rule>{1}<{0}><topics><topic>*</topic></topics>"
+      "<allow_rule>{1}<{0}><topics>{2}</topics>"
       "<partitions><partition>*</partition></partitions></{0}></allow_rule>\n",
-      action, domains);
+      action, domains, listed);
 }
 
+template <class M>
+constexpr const char* topic = erp::Topic<M>::name;
+
 }  // namespace
+
+SecurityRole operator_role() { return {"robot", {"*"}}; }
+
+/// There are no deny rules: Cyclone 0.10 applies one against publishing to reading as well.
+std::vector<SecurityRole> component_roles() {
+  const char* const state = topic<erp::ComponentState>;
+  const char* const event = topic<erp::Event>;
+  return {
+      {"plant",
+       {topic<erp::SensorFrame>, topic<erp::EcuCommand>, topic<erp::EcuParameter>,
+        topic<erp::ActuatorOwner>, state, event}},
+      {"device",
+       {topic<erp::EcuFrame>, topic<erp::Clock>, topic<erp::JointState>, topic<erp::BodyPose>,
+        topic<erp::ImuFrame>, state, event}},
+      {"controller",
+       {topic<erp::ActuatorCommand>, topic<erp::ActuatorTarget>, topic<erp::JointTarget>,
+        topic<erp::JointState>, topic<erp::BodyPose>, topic<erp::ImuFrame>, topic<erp::ImagePoint>,
+        topic<erp::StageResidual>, state, event, "user_*", "rt/*"}},
+      {"logger", {state, event}},
+      {"listener", {}},
+  };
+}
 
 std::string governance_text() {
   return fmt::format(fmt::runtime(header), "governance") + "<domain_access_rules><domain_rule>" +
          domains + rule + "\n</domain_rule></domain_access_rules></dds>\n";
 }
 
-std::string permissions_text(const Validity& validity) {
+std::string permissions_text(const Validity& validity, const SecurityRole& role) {
   return fmt::format(fmt::runtime(header), "permissions") +
          fmt::format(
-             "<permissions><grant name=\"everything\"><subject_name>CN={},O={}</subject_name>\n"
+             "<permissions><grant name=\"role\"><subject_name>CN={},O={}</subject_name>\n"
              "<validity><not_before>{}</not_before><not_after>{}</not_after></validity>\n{}{}"
              "<default>DENY</default></grant></permissions></dds>\n",
-             security_identity, security_organisation, utc(validity.from_s), utc(validity.until_s),
-             allow("publish"), allow("subscribe"));
+             role.name, security_organisation, utc(validity.from_s), utc(validity.until_s),
+             allow("publish", role.topics), allow("subscribe", {"*"}));
 }
 
 }  // namespace launch

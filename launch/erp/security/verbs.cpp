@@ -11,7 +11,7 @@ void add_security(CLI::App& app, Chosen& chosen) {
   auto* verb = app.add_subcommand("security", "Access control of a robot by DDS Security");
   verb->require_subcommand(1);
   auto* make = verb->add_subcommand(
-      "make", "Create a certificate authority and an identity with a certificate");
+      "make", "Create a certificate authority, and an identity for each role of a process");
   auto folder = std::make_shared<std::string>();
   auto days = std::make_shared<int>(730);
   make->add_option("dir", *folder, "new folder")->required();
@@ -23,7 +23,8 @@ void add_security(CLI::App& app, Chosen& chosen) {
       for (const auto& file : make_security(*folder, valid_for_days(*days)))
         std::cout << file.string() << '\n';
       std::cout << "next: erp launch GRAPH.xml --security " << *folder
-                << "; in other terminals: export ERP_SECURITY=" << *folder << '\n';
+                << "; in other terminals: export ERP_SECURITY=" << *folder
+                << ", or one of the folders in " << *folder << "/roles, for fewer rights\n";
       return 0;
     };
   });

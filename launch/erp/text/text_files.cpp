@@ -2,17 +2,19 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <stdexcept>
+
+#include "interfaces/xml/document.hpp"
 
 namespace launch {
 
 std::string read_text(const std::string& file) {
-  if (std::filesystem::is_directory(file))
-    throw std::invalid_argument(file + ": this is a folder; name a file in it");
-  std::ifstream in(file);
-  if (!in) throw std::invalid_argument(file + ": cannot be read; check the name");
-  return {std::istreambuf_iterator<char>(in), {}};
+  constexpr std::uint64_t max_bytes = 256 << 20;  // chosen
+  try {
+    return xml::text_of_file(file, max_bytes);
+  } catch (const xml::Errors& error) {
+    throw std::invalid_argument(error.what());
+  }
 }
 
 void write_file(const std::string& file, const std::string& text) {

@@ -1,5 +1,7 @@
 #include "interfaces/recording/mcap_reader.hpp"
 
+#include <sys/stat.h>
+
 #include <catch2/catch.hpp>
 #include <random>
 
@@ -212,4 +214,21 @@ TEST_CASE("damage is rejected with its byte position and the remedy") {
   CHECK_THROWS_WITH(McapReader(path), Catch::StartsWith(path + ": byte ") &&
                                           Catch::Contains(what) &&
                                           Catch::Contains("erp log recover " + path));
+}
+
+TEST_CASE("a small file that unpacks to more memory than there is, and a pipe, are rejected") {
+  const test::Folder folder;
+  {
+    McapWriter writer(folder / "bomb.mcap");
+    const auto channel = writer.add_channel("t", "cdr", 0);
+    const std::string zeros(64 << 20, '\0');
+    for (std::uint64_t k = 1; k <= 12; ++k)
+      writer.write(channel, 0, k, k, std::as_bytes(std::span(zeros)));
+    writer.close();
+  }
+  CHECK(std::filesystem::file_size(folder / "bomb.mcap") < 400'000);
+  CHECK_THROWS_WITH(McapReader(folder / "bomb.mcap"), Catch::Contains("more than 1000 times"));
+  const std::string pipe = folder / "pipe.mcap";
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK_THROWS_WITH(McapReader(pipe), Catch::Contains("is not a file"));
 }

@@ -197,3 +197,52 @@ TEST_CASE("a write to a closed recording is rejected") {
   writer.close();
   CHECK_THROWS_WITH(writer.write(channel, 0, 0, 0, {}), Catch::Contains("is closed"));
 }
+
+TEST_CASE("with continue_after_failure a failed write loses its messages, and the next ones are kept") {
+  const test::Folder folder;
+  rlimit original_limit{};
+  getrlimit(RLIMIT_FSIZE, &original_limit);
+  const auto original_handler = std::signal(SIGXFSZ, SIG_IGN);
+  McapWriter writer(folder / "a.mcap",
+                    {.compression = Compression::none, .continue_after_failure = true});
+  const auto channel = writer.add_channel("t", "cdr", 0);
+  writer.write(channel, 0, 1, 1, view("first"));
+  writer.flush();
+  CHECK(writer.failure().empty());
+  const rlimit limit{std::filesystem::file_size(folder / "a.mcap") + 30, original_limit.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &limit);
+  for (std::uint64_t k : {2, 3, 4}) {
+    writer.write(channel, 1, k, k, view(std::string(1000, 'x')));
+    writer.flush();
+    CHECK(writer.failure().find("File too large") != std::string::npos);
+  }
+  const auto other = writer.add_channel("late", "cdr", 0);  // its record is written with the next chunk
+  setrlimit(RLIMIT_FSIZE, &original_limit);
+  std::signal(SIGXFSZ, original_handler);
+  writer.write(other, 0, 5, 5, view("last"));
+  writer.flush();
+  CHECK(writer.failure().empty());
+  CHECK(writer.lost().count == 3);
+  CHECK(writer.lost().first_ns == 2);
+  CHECK(writer.lost().last_ns == 4);
+  writer.close();
+  const McapReader reader(folder / "a.mcap");
+  CHECK(reader.complete());
+  CHECK(reader.contents().messages == 2);
+  std::vector<std::string> topics;
+  reader.for_each([&](const Message& message) { topics.push_back(message.channel.topic); });
+  CHECK(topics == std::vector<std::string>{"t", "late"});
+}
+
+TEST_CASE("a file that cannot be begun is removed") {
+  const test::Folder folder;
+  rlimit original_limit{};
+  getrlimit(RLIMIT_FSIZE, &original_limit);
+  const auto original_handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit limit{4, original_limit.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &limit);
+  CHECK_THROWS_AS(McapWriter(folder / "a.mcap"), RecordingError);
+  setrlimit(RLIMIT_FSIZE, &original_limit);
+  std::signal(SIGXFSZ, original_handler);
+  CHECK_FALSE(std::filesystem::exists(folder / "a.mcap"));
+}

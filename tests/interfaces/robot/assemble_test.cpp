@@ -188,6 +188,23 @@ TEST_CASE("a circular include is rejected with its place") {
   }
 }
 
+TEST_CASE("includes that double at each level are rejected") {
+  const Files files;
+  constexpr int levels = 40;  // 2^40 files
+  for (int k = 0; k < levels; ++k) {
+    const std::string next = "<include file='" + std::to_string(k + 1) + ".xml'/>";
+    files.put(std::to_string(k) + ".xml", "<robot name='a'>" + next + next + "</robot>");
+  }
+  files.put(std::to_string(levels) + ".xml", "<robot name='a'/>");
+  try {
+    erp::read_robot(files.path("0.xml"));
+    FAIL("was accepted");
+  } catch (const xml::Errors& errors) {
+    CHECK(errors.all().size() == 1);
+    CHECK_THAT(errors.what(), Catch::Contains("is one file too many: the robot already has 500"));
+  }
+}
+
 TEST_CASE("the errors of all included files are reported at once") {
   const Files files;
   files.put("a.xml", "<robot name='a' x=''><include file='b.xml'/><include file='c.xml'/></robot>");

@@ -1,5 +1,8 @@
 #include "interfaces/xml/document.hpp"
 
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
@@ -103,4 +106,19 @@ TEST_CASE("a missing file, a folder and an empty file are rejected with differen
   CHECK_THAT(refusal([&] { xml::read_document(folder.string()); }), Catch::Contains("is a folder"));
   CHECK_THAT(refusal([&] { xml::read_document(empty.string()); }), Catch::Contains("is empty"));
   std::filesystem::remove(empty);
+}
+
+TEST_CASE("pipes, devices and oversized files are rejected at once") {
+  const auto folder = std::filesystem::temp_directory_path();
+  const std::string pipe = folder / ("erp_pipe_" + std::to_string(getpid()));
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK_THAT(refusal([&] { xml::read_document(pipe); }), Catch::Contains("is not a regular file"));
+  CHECK_THAT(refusal([] { xml::read_document("/dev/zero"); }),
+             Catch::Contains("is not a regular file"));
+  std::filesystem::remove(pipe);
+  const std::string large = folder / ("erp_large_" + std::to_string(getpid()));
+  std::ofstream(large) << "<a/>";
+  std::filesystem::resize_file(large, xml::max_document_bytes + 1);
+  CHECK_THAT(refusal([&] { xml::read_document(large); }), Catch::Contains("at most 67108864"));
+  std::filesystem::remove(large);
 }
