@@ -108,6 +108,7 @@ int launch_graph(const LaunchOptions& options) {
   Plan plan = make_plan(graph, run_options, find);
   plan.max_restarts = options.max_restarts;
   plan.ready_timeout_s = ready_timeout_s;
+  plan.inputs = run_options.attach;
   const auto start_time = fs::file_time_type::clock::now();
   Run run(graph, robot.name, plan, run_options.folder);
   const int exit_code = run.execute();

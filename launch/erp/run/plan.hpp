@@ -46,6 +46,7 @@ struct PlannedProcess {
 struct Plan {
   std::vector<PlannedProcess> processes;
   std::string recording;  ///< file of the first logger; empty: no logger
+  std::vector<std::string> inputs;  ///< XML files that the components read
   std::size_t max_restarts = BackOff::Tuning{}.max_restarts;  ///< of one component within 30 s
   double ready_timeout_s = 60;  ///< time limit until all components are ready
 };

@@ -77,6 +77,7 @@ Tuning tuning_of(const Plan& plan) {
 Run::Run(const erp::Graph& graph, const std::string& robot, Plan plan, const std::string& folder)
     : graph_(graph),
       plan_(std::move(plan)),
+      inputs_(plan_.inputs),
       folder_(folder),
       log_(folder + "/erp.log", std::ios::trunc),
       bus_(robot),
@@ -258,6 +259,11 @@ void Run::spawn(std::size_t index) {
   for (const auto& argument : planned.argv) line += argument + " ";
   std::ofstream(planned.log_file, std::ios::app) << "$ " << line << '\n';
   members_[index].heartbeat.reset();
+  if (const auto file = inputs_.changed(); !file.empty()) {
+    print(planned.name + ": not started, because " + file +
+          " has changed since the launch; start the graph again");
+    return supervisor_.on_exit(index, {bad_input, 0}, time_.now_ns());
+  }
   try {
     // If the launcher is killed, SIGTERM lets the logger close its file.
     const int death_signal = planned.role == Role::logger ? SIGTERM : SIGKILL;

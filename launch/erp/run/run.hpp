@@ -8,6 +8,7 @@
 #include "interfaces/graph/graph.hpp"
 #include "launch/erp/run/bus_link.hpp"
 #include "launch/erp/run/frame_watch.hpp"
+#include "launch/erp/run/input_files.hpp"
 #include "launch/erp/run/plan.hpp"
 #include "launch/erp/run/process.hpp"
 #include "launch/erp/run/processor_share.hpp"
@@ -63,6 +64,7 @@ class Run {
 
   const erp::Graph& graph_;
   Plan plan_;
+  InputFiles inputs_;
   std::string folder_;
   std::ofstream log_;
   Signals signals_;  // before bus_: its threads inherit the signal mask

@@ -8,8 +8,6 @@
 namespace launch {
 namespace {
 
-constexpr int bad_input = 2;
-
 std::string seconds(std::int64_t duration_ns) {
   char text[32];
   std::snprintf(text, sizeof text, "%.1f s", 1e-9 * static_cast<double>(duration_ns));

@@ -21,6 +21,9 @@
 /// has ended.
 namespace launch {
 
+/// Exit code of a component that rejects its input. It is not restarted.
+inline constexpr int bad_input = 2;
+
 /// A process under supervision.
 struct SupervisedProcess {
   std::string name;

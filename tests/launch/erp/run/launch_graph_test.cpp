@@ -166,6 +166,18 @@ TEST_CASE("a killed component is restarted and the graph continues") {
   CHECK_THAT(graph.screen(), Contains("killed by signal 9 (Killed), restart 1 of 5"));
 }
 
+TEST_CASE("after a change of robot.xml no component is restarted, and the graph ends") {
+  const Graph graph;
+  auto launcher = graph.start({});
+  graph.wait_for_line("all components are active");
+  std::ofstream(graph.folder / "robot.xml") << R"(<robot name="tester"><!-- edited --></robot>)";
+  kill(graph.pid_of("worker"), SIGKILL);
+  CHECK(Graph::wait_for(launcher) == 2);
+  CHECK_THAT(graph.screen(), Contains("worker: not started, because ") &&
+                                 Contains("robot.xml has changed since the launch"));
+  CHECK(graph.processes().empty());
+}
+
 TEST_CASE(
     "a component that crashes repeatedly ends the graph with exit code 1, and its log is printed") {
   const Graph graph;
