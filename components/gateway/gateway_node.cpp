@@ -87,6 +87,7 @@ void GatewayNode::open(const Params& params, const erp::Robot& robot) {
   }
   for (const erp::BusPlan& plan : robot.buses()) frame_time_s_.push_back(worst_frame_time_s(plan));
   unsent_reported_.assign(buses_.size(), 0);
+  unrecorded_reported_.assign(buses_.size(), 0);
   frames_before_.assign(buses_.size(), 0);
 }
 

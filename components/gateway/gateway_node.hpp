@@ -69,7 +69,7 @@ class GatewayNode {
   node::Subscription<erp::EcuParameter>* parameter_in_;
   std::uint64_t end_sequence_;
   erp::GatewayCounters reported_counters_;
-  std::vector<std::uint64_t> unsent_reported_, frames_before_;
+  std::vector<std::uint64_t> unsent_reported_, unrecorded_reported_, frames_before_;
   std::int64_t activated_ns_ = 0;
   std::optional<std::int64_t> open_since_ns_;  ///< when the first frame of the current tick arrived
   std::int64_t last_counters_ns_ = 0;

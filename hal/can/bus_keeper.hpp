@@ -43,6 +43,8 @@ class BusKeeper {
 
   /// Writes every frame to `file` from now on. Throws as TraceWriter.
   void record(const std::string& file);
+  /// Frames that could not be written to that file.
+  std::uint64_t unrecorded() const { return trace_ ? trace_->lost() : 0; }
   /// Sends frames, now or as soon as there is room.
   void post(std::span<const CanFrame> frames, std::int64_t now_ns);
   /// Sends queued frames; call when the bus was readable.

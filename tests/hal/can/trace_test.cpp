@@ -39,6 +39,12 @@ TEST_CASE("a line with another kind of frame is not parsed") {
     CHECK_FALSE(erp::parse_trace_line(line));
 }
 
+TEST_CASE("frames that a full disk does not take are counted") {
+  erp::TraceWriter trace("/dev/full", "can0");
+  for (int k = 0; k < 1000; ++k) trace.frame(erp::CanFrame{}, k, false);
+  CHECK(trace.lost() > 0);
+}
+
 TEST_CASE("the error of a trace that cannot be written or read gives the reason") {
   CHECK_THROWS_WITH(erp::TraceWriter("/nowhere/trace.log", "can0"),
                     Catch::Contains("trace \"/nowhere/trace.log\": No such file"));
