@@ -28,6 +28,7 @@ class FrameWatch {
     stopped_ = stopped;
     return stopped ? Change::stopped : Change::resumed;
   }
+  bool is_stopped() const { return stopped_; }
   /// Time without frames of the last interruption, until `now_ns`.
   double stopped_s(std::int64_t now_ns) const {
     return 1e-9 * static_cast<double>(now_ns - since_ns_);

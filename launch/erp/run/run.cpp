@@ -114,6 +114,7 @@ int Run::execute() {
     supervisor_.tick(time_.now_ns());
     execute_actions();
     watch_frames();
+    renew_if_stopped();
     if (time_.now_ns() - last_drawn_ns_ <
         (screen_.is_terminal() ? redraw_period_ns : plain_output_period_ns))
       continue;

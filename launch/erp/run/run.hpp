@@ -12,6 +12,7 @@
 #include "launch/erp/run/plan.hpp"
 #include "launch/erp/run/process.hpp"
 #include "launch/erp/run/processor_share.hpp"
+#include "launch/erp/run/renewal.hpp"
 #include "launch/erp/run/run_time.hpp"
 #include "launch/erp/run/screen.hpp"
 #include "launch/erp/run/signals.hpp"
@@ -49,6 +50,10 @@ class Run {
   bool is_ending() const;
   /// Reports that frames stop while all processes run, and that they resume.
   void watch_frames();
+  void renew_if_stopped();
+  bool is_any_suspended() const;
+  bool is_bus_disturbed() const;
+  std::uint64_t device_steps() const;
   void reap();
   void handle_signals();
   void stop_after_duration();
@@ -75,6 +80,9 @@ class Run {
   std::vector<Member> members_;
   std::map<std::string, std::size_t> index_of_;
   FrameWatch frame_watch_;
+  Renewal renewal_;
+  bool has_silent_member_ = false;  ///< no heartbeat from at least one process
+  std::uint64_t device_steps_ = 0;  ///< when frames stopped
   std::int64_t last_drawn_ns_ = 0;
 };
 

@@ -30,6 +30,8 @@ void Supervisor::tick(std::int64_t now_ns) {
   if (stage_ == Stage::stopping) return stop_next(now_ns);
   if (stage_ == Stage::done) return;
   spawn_due(now_ns);
+  for (Member& member : members_)
+    if (member.renewed) kill_if_overdue(member, tuning_.renew_timeout_ns, now_ns);
   if (stage_ == Stage::starting) await_all(now_ns);
   if (stage_ == Stage::activating || stage_ == Stage::running) activate_next(now_ns);
 }
@@ -62,6 +64,13 @@ void Supervisor::on_exit(std::size_t index, const Ending& ending, std::int64_t n
     return;
   }
   member.phase = Phase::ended;
+  if (std::exchange(member.renewed, false)) {
+    member.phase = Phase::waiting;
+    member.killed = false;
+    member.spawn_due_ns = now_ns;
+    ++member.restarts;
+    return;
+  }
   if (ending.clean() && member.process.ends_run)
     return stop(member.process.name + " has reached the end of the run", 0, now_ns);
   if (!ending.signal && ending.code == bad_input)
@@ -109,6 +118,19 @@ void Supervisor::stop(const std::string& reason, int exit_code, std::int64_t now
       member.phase = Phase::ended;
   }
   stop_next(now_ns);
+}
+
+void Supervisor::renew(std::int64_t now_ns) {
+  if (stage_ == Stage::stopping || stage_ == Stage::done) return;
+  stage_ = Stage::starting;
+  started_ns_ = now_ns;
+  for (auto& member : members_) {
+    if (!is_alive(member) || member.renewed) continue;
+    member.renewed = true;
+    member.phase = Phase::stopping;
+    member.requested_ns = now_ns;
+    add_action(Action::Kind::terminate, index_of(member));
+  }
 }
 
 void Supervisor::kill_now() {
@@ -191,16 +213,16 @@ void Supervisor::stop_next(std::int64_t now_ns) {
       add_action(Action::Kind::terminate, index_of(*member));
     }
     is_waiting |= !member->finalized;
-    kill_if_overdue(*member, now_ns);
+    kill_if_overdue(*member, tuning_.stop_timeout_ns, now_ns);
   }
   if (all_ended) stage_ = Stage::done;
 }
 
-void Supervisor::kill_if_overdue(Member& member, std::int64_t now_ns) {
+void Supervisor::kill_if_overdue(Member& member, std::int64_t timeout_ns, std::int64_t now_ns) {
   if (member.killed || !member.requested_ns) return;
-  if (now_ns - *member.requested_ns < tuning_.stop_timeout_ns) return;
+  if (now_ns - *member.requested_ns < timeout_ns) return;
   member.killed = true;
-  print(member.process.name + " did not stop within " + seconds(tuning_.stop_timeout_ns) +
+  print(member.process.name + " did not stop within " + seconds(timeout_ns) +
         "; killing it");
   add_action(Action::Kind::kill, index_of(member));
 }

@@ -44,6 +44,7 @@ struct Tuning {
   std::int64_t resend_ns = 200'000'000;  ///< time until an activation without effect is sent again
   std::int64_t start_timeout_ns = 60'000'000'000;
   std::int64_t stop_timeout_ns = 5'000'000'000;  ///< from SIGTERM to SIGKILL
+  std::int64_t renew_timeout_ns = 500'000'000;   ///< the same in `renew`
   BackOff::Tuning restart;
 };
 
@@ -71,6 +72,9 @@ class Supervisor {
   /// code applies.
   void stop(const std::string& reason, int exit_code, std::int64_t now_ns);
   void kill_now();
+  /// Ends all processes and starts the graph again in order, although no process has failed: the bus
+  /// is disturbed. Counts as a restart of each, but not towards its limit.
+  void renew(std::int64_t now_ns);
 
   std::vector<Action> take_actions();
   Stage stage() const { return stage_; }
@@ -89,6 +93,7 @@ class Supervisor {
     std::optional<std::int64_t> requested_ns;  ///< time of the last request to activate or to end
     std::int64_t spawn_due_ns = 0;
     bool killed = false;
+    bool renewed = false;  ///< ends because of `renew`
     bool finalized = false;  ///< has reported `finalized`; only its process still has to end
     std::size_t restarts = 0;
   };
@@ -99,7 +104,7 @@ class Supervisor {
   void await_all(std::int64_t now_ns);
   void activate_next(std::int64_t now_ns);
   void stop_next(std::int64_t now_ns);
-  void kill_if_overdue(Member& member, std::int64_t now_ns);
+  void kill_if_overdue(Member& member, std::int64_t timeout_ns, std::int64_t now_ns);
   void restart(std::size_t index, const Ending& ending, std::int64_t now_ns);
   void fail(std::size_t index, const std::string& reason, int exit_code, std::int64_t now_ns);
   void add_action(Action::Kind kind, std::size_t index = 0, std::string text = "");

@@ -150,3 +150,34 @@ TEST_CASE("a component that exits with 2 is not restarted, and the exit code of 
   CHECK(run.supervisor.exit_code() == 2);
   CHECK(run.actions() == Strings{"terminate sim"});
 }
+
+TEST_CASE("a renewed graph ends all processes and starts them again in order") {
+  Run run;
+  run.complete_start();
+  run.supervisor.renew(run.now_ns);
+  CHECK(run.actions() == Strings{"terminate logger", "terminate plant", "terminate sim"});
+  run.end(0);
+  run.end(2);
+  CHECK(run.actions() == Strings{"spawn logger", "spawn sim"});
+  run.wait(600 * ms);
+  CHECK(run.actions() == Strings{"kill plant"});
+  run.end(1, {0, SIGKILL});
+  CHECK(run.actions() == Strings{"spawn plant"});
+  CHECK(run.supervisor.stage() == Stage::starting);
+  run.complete_start();
+  CHECK(run.supervisor.restarts(1) == 1);
+  CHECK(run.supervisor.exit_code() == 0);
+}
+
+TEST_CASE("a graph can be renewed while it starts, and stopped while it is renewed") {
+  Run run;
+  run.complete_start();
+  run.supervisor.renew(run.now_ns);
+  for (std::size_t k : {0, 1, 2}) run.end(k);
+  run.actions();
+  run.supervisor.renew(run.now_ns);
+  CHECK(run.actions() == Strings{"terminate logger", "terminate plant", "terminate sim"});
+  run.supervisor.stop("enough", 0, run.now_ns);
+  for (std::size_t k : {0, 1, 2}) run.end(k);
+  CHECK(run.supervisor.done());
+}
