@@ -13,8 +13,9 @@ enum class SafeAction : std::uint8_t { none = 0, hold = 1, relax = 2, damp = 3 }
 /// Bits for the measurements of a sample that were taken.
 namespace valid {
 inline constexpr std::uint8_t voltage = 1, current = 2, shaft = 4, line = 8, tension = 16;
-inline constexpr std::uint8_t all = 31;            ///< all measurements of an ECU channel
-inline constexpr std::uint8_t without_zero = all & ~(shaft | line);  ///< the encoder's zero is unknown
+inline constexpr std::uint8_t all = 31;  ///< all measurements of an ECU channel
+inline constexpr std::uint8_t without_zero =
+    all & ~(shaft | line);                         ///< the encoder's zero is unknown
 inline constexpr std::uint8_t potentiometer = 32;  ///< if the actuator has one
 inline constexpr std::uint8_t joint_angle = 1;
 }  // namespace valid

@@ -116,7 +116,8 @@ void GatewayNode::report_counters() {
     const std::uint64_t expired = buses_[k].outbox().expired() + buses_[k].outbox().dropped();
     report(expired, unsent_reported_[k], buses_[k].name(), "frames_not_sent");
     unsent_reported_[k] = expired;
-    report(buses_[k].unrecorded(), unrecorded_reported_[k], buses_[k].name(), "frames_not_recorded");
+    report(buses_[k].unrecorded(), unrecorded_reported_[k], buses_[k].name(),
+           "frames_not_recorded");
     unrecorded_reported_[k] = buses_[k].unrecorded();
   }
   show_counters();

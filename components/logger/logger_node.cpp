@@ -169,8 +169,9 @@ void LoggerNode::check_space() {
   char text[96];
   std::snprintf(text, sizeof text, "%.0f MB are free in ", 1e-6 * free_bytes);
   const std::string left =
-      is_short ? ", enough for " + std::to_string(std::lround(free_bytes * elapsed_s / written)) + " s"
-               : "";
+      is_short
+          ? ", enough for " + std::to_string(std::lround(free_bytes * elapsed_s / written)) + " s"
+          : "";
   node_.report(erp::Severity::warning, "", "disk_space", text + folder.string() + left);
 }
 

@@ -57,7 +57,7 @@ class LoggerNode {
       unrecordable_;  ///< topics whose type cannot be recorded; reported once
   std::int64_t started_wall_ns_ = node::wall_ns(), started_ns_ = node::monotonic_ns();
   std::uint64_t missing_reported_ = 0;
-  bool is_failing_ = false;              ///< the last write failed
+  bool is_failing_ = false;  ///< the last write failed
   std::uint64_t lost_reported_ = 0;
   std::int64_t space_checked_ns_ = 0;
   std::uint64_t bytes_at_check_ = 0;

@@ -139,8 +139,9 @@ Entity make_writer(const Entity& participant, const Entity& topic, int depth) {
   if (writer == DDS_RETCODE_NOT_ALLOWED_BY_SECURITY) {
     char name[256] = "";
     dds_get_name(topic.id(), name, sizeof name);
-    throw std::invalid_argument("ERP_SECURITY=" + security_folder() + ": its identity may not write " +
-                                name + "; use the folder of a role that may, or the one above roles");
+    throw std::invalid_argument("ERP_SECURITY=" + security_folder() +
+                                ": its identity may not write " + name +
+                                "; use the folder of a role that may, or the one above roles");
   }
   return {writer, "create writer"};
 }

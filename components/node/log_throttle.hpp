@@ -12,7 +12,7 @@ class LogThrottle {
  public:
   static constexpr int burst = 3;  ///< reports per kind and window, chosen
   static constexpr std::int64_t window_ns = 10'000'000'000;  ///< chosen
-  static constexpr std::size_t max_kinds = 512;  ///< chosen; further kinds count as one
+  static constexpr std::size_t max_kinds = 512;              ///< chosen; further kinds count as one
 
   /// Returns std::nullopt when this kind was reported `burst` times within the window; otherwise
   /// the number of reports suppressed since the last one that passed.

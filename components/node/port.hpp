@@ -79,8 +79,8 @@ class Subscription final : public Port {
         deliver_(deliver),
         where_(where),
         reader_(participant,
-                where == Where::in_loop ? wake_callback(wake) : DataCallback{on_data, this},
-                depth, identity.robot) {}
+                where == Where::in_loop ? wake_callback(wake) : DataCallback{on_data, this}, depth,
+                identity.robot) {}
 
   /// Called with the gate locked. Passes available messages to the handler, or drops them if
   /// `deliver` is false.

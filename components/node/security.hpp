@@ -14,7 +14,7 @@ struct SecurityFiles {
   static constexpr const char* identity_key = "identity.key";
   static constexpr const char* governance = "governance.p7s";  ///< which data is protected, and how
   static constexpr const char* permissions =
-      "permissions.p7s";  ///< who may publish and subscribe to what
+      "permissions.p7s";                         ///< who may publish and subscribe to what
   static constexpr const char* roles = "roles";  ///< subfolder with one security folder per role
 };
 

@@ -39,7 +39,8 @@ ActuatorChannel::ActuatorChannel(const erp::Actuator& actuator, const erp::Motor
 Checked ActuatorChannel::receive(std::string_view controller, std::int32_t priority, erp::Mode mode,
                                  double reference, std::int64_t now_ns, std::int64_t stale_ns) {
   Checked checked = limits_.check(mode, reference);
-  if (mode == erp::Mode::length && !zero_known_) checked = {Verdict::refused, 0, zero_unknown_reason};
+  if (mode == erp::Mode::length && !zero_known_)
+    checked = {Verdict::refused, 0, zero_unknown_reason};
   if (checked.verdict != Verdict::refused &&
       !arbiter_.update(controller, priority, mode, checked.reference, now_ns, stale_ns))
     checked = {

@@ -172,10 +172,10 @@ void Plant::receive(const erp::ActuatorCommand& command, std::int64_t now_ns) {
 void Plant::set_zero(std::size_t actuator, const erp::ActuatorCommand& command, double line_m,
                      std::int64_t now_ns) {
   ActuatorChannel& channel = channels_[actuator];
-  const std::string reason =
-      channel.zero_refusal(command.controller, command.priority, line_m);
+  const std::string reason = channel.zero_refusal(command.controller, command.priority, line_m);
   if (reason.empty())
-    return zeros_.set(actuator, channel.units().shaft_of_line_rad(line_m), command.controller, now_ns);
+    return zeros_.set(actuator, channel.units().shaft_of_line_rad(line_m), command.controller,
+                      now_ns);
   channel.refuse_gains(reason);
 }
 

@@ -112,7 +112,7 @@ class Plant {
   std::array<std::array<int, analogs_per_ecu>, ecus> analog_at_;  ///< [ecu][input] → index or −1
   std::vector<ChannelGains> gains_;                               ///< one per actuator
   Zeros zeros_;
-  std::vector<std::int64_t> boot_since_ns_;                       ///< 0: not in state boot
+  std::vector<std::int64_t> boot_since_ns_;  ///< 0: not in state boot
   erp::EcuParameter parameters_;
   std::vector<Reported> reported_;
   erp::SensorFrame frame_;

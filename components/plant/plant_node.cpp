@@ -62,8 +62,9 @@ void PlantNode::on_command(const erp::ActuatorCommand& command) {
 void PlantNode::store_answer(const erp::ActuatorCommand& command) {
   auto place = std::ranges::find(answers_, command.controller, &Answer::controller);
   if (place == answers_.end())
-    place = answers_.size() < max_answers ? answers_.insert(place, Answer{})
-                                          : std::ranges::min_element(answers_, {}, &Answer::answers);
+    place = answers_.size() < max_answers
+                ? answers_.insert(place, Answer{})
+                : std::ranges::min_element(answers_, {}, &Answer::answers);
   *place = {command.controller, command.answers};
 }
 

@@ -7,7 +7,7 @@
 namespace plant {
 namespace {
 
-constexpr std::int64_t repeat_ns = 100'000'000;    // chosen: the ECU confirms within two periods
+constexpr std::int64_t repeat_ns = 100'000'000;     // chosen: the ECU confirms within two periods
 constexpr std::int64_t timeout_ns = 2'000'000'000;  // chosen: 20 repetitions
 constexpr int min_readings = 32;  // chosen: of the potentiometer, 64 ms, to average its noise
 
@@ -25,7 +25,8 @@ Zero::Change Zero::observe(bool known, ecu_state state, std::int32_t counts, std
   counts_ = counts;
   state_ = state;
   if (state == ECU_STATE_BOOT) add_counts_.reset(), readings_ = 0, sum_rad_ = 0;
-  const bool was_known = std::exchange(known_, known), was_observed = std::exchange(observed_, true);
+  const bool was_known = std::exchange(known_, known),
+             was_observed = std::exchange(observed_, true);
   if (known && !was_known && add_counts_) {
     wanted_rad_.reset(), add_counts_.reset();
     return Change::set;
@@ -50,14 +51,16 @@ void Zero::observe_potentiometer(double reading_rad, std::int64_t now_ns) {
 void Zero::set(double shaft_rad, const std::string& source, std::int64_t now_ns) {
   wanted_rad_ = shaft_rad;
   add_counts_.reset();
-  if (!known_) add_counts_ = static_cast<std::int32_t>(std::lround(shaft_rad / rad_per_count_)) - counts_;
+  if (!known_)
+    add_counts_ = static_cast<std::int32_t>(std::lround(shaft_rad / rad_per_count_)) - counts_;
   wanted_since_ns_ = now_ns, sent_ns_ = 0;
   source_ = source;
 }
 
 /// A known zero is first made unknown, because only then the counts are those since the reset.
 void Zero::append_next(erp::EcuParameter& message, std::int64_t now_ns) {
-  if (!wanted_rad_ || state_ == ECU_STATE_BOOT || (sent_ns_ && now_ns - sent_ns_ < repeat_ns)) return;
+  if (!wanted_rad_ || state_ == ECU_STATE_BOOT || (sent_ns_ && now_ns - sent_ns_ < repeat_ns))
+    return;
   if (!known_ && !add_counts_)
     add_counts_ = static_cast<std::int32_t>(std::lround(*wanted_rad_ / rad_per_count_)) - counts_;
   sent_ns_ = now_ns;

@@ -48,7 +48,7 @@ class Zero {
   bool known_ = false, observed_ = false;
   std::int32_t counts_ = 0;
   ecu_state state_ = ECU_STATE_BOOT;
-  std::optional<double> wanted_rad_;      ///< to be set
+  std::optional<double> wanted_rad_;        ///< to be set
   std::optional<std::int32_t> add_counts_;  ///< sent to the ECU
   std::int64_t wanted_since_ns_ = 0, sent_ns_ = 0;
   int readings_ = 0;

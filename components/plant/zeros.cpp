@@ -9,13 +9,14 @@ namespace plant {
 namespace {
 
 /// Time after the first report of an ECU in which the ECUs of the same robot have reported too.
-constexpr std::int64_t settle_ns = 100'000'000;  // chosen: 50 frames
+constexpr std::int64_t settle_ns = 100'000'000;            // chosen: 50 frames
 constexpr std::int64_t joints_timeout_ns = 1'000'000'000;  // chosen
 /// Largest deviation of a joint from the starting pose. Chosen: 3 degrees.
 constexpr double max_deviation_rad = 0.052;
 
 const erp::Potentiometer* potentiometer_of(const erp::Robot& robot, const std::string& actuator) {
-  const auto match = std::ranges::find(robot.potentiometers, actuator, &erp::Potentiometer::actuator);
+  const auto match =
+      std::ranges::find(robot.potentiometers, actuator, &erp::Potentiometer::actuator);
   return match == robot.potentiometers.end() ? nullptr : &*match;
 }
 
@@ -87,9 +88,10 @@ void Zeros::update(std::int64_t now_ns) {
     if (reason.empty() && !zeros_[i].has_potentiometer())
       zeros_[i].set(0, "the starting pose", now_ns);
     else if (!reason.empty() && !std::exchange(reported_deviation_, true))
-      notices_.push_back({erp::Severity::warning, "", "not_in_starting_pose",
-                          reason + ": the zeros of the encoders stay unknown; move the robot there and switch "
-                                   "its ECUs off and on, or run erp home"});
+      notices_.push_back(
+          {erp::Severity::warning, "", "not_in_starting_pose",
+           reason + ": the zeros of the encoders stay unknown; move the robot there and switch "
+                    "its ECUs off and on, or run erp home"});
   }
 }
 
@@ -101,8 +103,8 @@ void Zeros::report(std::size_t actuator, Zero::Change change) {
     case Zero::Change::none:
       return;
     case Zero::Change::set:
-      return notices_.push_back(
-          {erp::Severity::info, name, "zero_set", "the zero of its encoder is set from " + zero.source()});
+      return notices_.push_back({erp::Severity::info, name, "zero_set",
+                                 "the zero of its encoder is set from " + zero.source()});
     case Zero::Change::unconfirmed:
       return notices_.push_back({erp::Severity::warning, name, "zero_unknown",
                                  "its ECU did not accept the zero of its encoder from " +

@@ -21,7 +21,9 @@ class Zeros {
     zeros_[actuator].observe_potentiometer(reading_rad, now_ns);
   }
   /// `sensor`: index in robot.xml's joint sensors.
-  void observe_joint(std::size_t sensor, double angle_rad) { joints_[sensor].reading_rad = angle_rad; }
+  void observe_joint(std::size_t sensor, double angle_rad) {
+    joints_[sensor].reading_rad = angle_rad;
+  }
   /// To be called after all readings of a frame.
   void update(std::int64_t now_ns);
   /// See Zero::set.

@@ -59,7 +59,8 @@ class SimNode {
         {xml::Range{500, 20000}, "Rate of the physics; a multiple of the ECUs' 500 Hz."});
       v("seed", seed, {xml::Range{0, 1e9}, "Seed of the sensor noise."});
       v("zeros", zeros,
-        "Zeros of the encoders at the start. unknown: as after a reset of the ECUs, like those of a "
+        "Zeros of the encoders at the start. unknown: as after a reset of the ECUs, like those of "
+        "a "
         "real robot.");
       v("bus", bus, "CAN buses on which the robot is simulated, as bus of gateway; empty: DDS.");
       v("converter_port", converter_port,

@@ -101,8 +101,8 @@ void ecu_discard_parameters(ecu_channel* channel);
  * has determined it. Speeds do not change. Returns false, without effect, while the channel follows a
  * length set-point. As a parameter: index ECU_ZERO, effective without commit; NaN: unknown. */
 bool ecu_set_zero(ecu_channel* channel, bool known, int32_t counts);
-#define ECU_ZERO 62u             /* index on the bus; not one of the gains */
-#define ECU_ZERO_MAX 8388607     /* counts; exact in float32; 4 times the range of set-points */
+#define ECU_ZERO 62u         /* index on the bus; not one of the gains */
+#define ECU_ZERO_MAX 8388607 /* counts; exact in float32; 4 times the range of set-points */
 
 /* Reports that a value of the staged set was lost in transit: its commit will be rejected. */
 void ecu_invalidate_staged(ecu_channel* channel);

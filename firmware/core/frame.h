@@ -122,15 +122,16 @@ typedef struct {
 } frame_analog;
 
 typedef struct {
-  uint8_t page; /* 0: encoder to zero_known; 1: request to accepted_gain_sets; the other fields are 0 */
+  uint8_t
+      page; /* 0: encoder to zero_known; 1: request to accepted_gain_sets; the other fields are 0 */
   uint8_t counter;
   int32_t encoder_counts; /* full count */
   bool warning;
   uint8_t lost, corrupt; /* commands since boot, modulo 256 */
   bool zero_known;       /* the encoder count is absolute */
   uint8_t request;
-  int32_t setpoint;          /* in effect */
-  uint16_t rejected;         /* set-points since boot, modulo 65536 */
+  int32_t setpoint;           /* in effect */
+  uint16_t rejected;          /* set-points since boot, modulo 65536 */
   uint8_t refused_gain_sets;  /* since boot, modulo 256 */
   uint8_t accepted_gain_sets; /* since boot, modulo 8 */
 } frame_health;

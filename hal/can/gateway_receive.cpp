@@ -91,6 +91,9 @@ void Gateway::store(Channel& channel, EcuChannelSample& sample, const frame_stat
     channel.followed = {content.request, 0};
   }
   sample.fresh = true;
+  // A reset whose boot frame was lost: the next HEALTH, up to 200 ms later, reports the zero.
+  const bool was_live = sample.state > ECU_STATE_BOOT && sample.state < ECU_STATE_COUNT;
+  if (content.state == ECU_STATE_BOOT && was_live) sample.zero_known = false;
   sample.state = content.state;
   sample.fault = content.fault;
   sample.request = channel.followed.request;

@@ -17,8 +17,8 @@ class OutputFile {
   OutputFile& operator=(const OutputFile&) = delete;
 
   void append(ByteView bytes);
-  void sync();   ///< waits until the data is on the disk
-  void close();  ///< sync, then close
+  void sync();    ///< waits until the data is on the disk
+  void close();   ///< sync, then close
   void remove();  ///< closes and deletes the file, unless it is a device
   std::uint64_t size() const { return size_; }
   std::uint32_t crc() const { return crc_; }  ///< CRC-32 of all appended bytes

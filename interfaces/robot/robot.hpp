@@ -99,6 +99,8 @@ struct Mirror {
 
 /// Where the robot is when its ECUs are switched on; their encoders then count from 0.
 enum class SwitchedOn { anywhere, starting_pose };
+/// When unknown zeros of encoders are set by moving the robot.
+enum class Homing { on_command, at_start };
 
 /// A robot. `read_robot` applies includes, mirrors and pretensions; their lists are then empty.
 struct Robot {
@@ -108,6 +110,7 @@ struct Robot {
   xml::Place place;
   std::string name;
   SwitchedOn switched_on = SwitchedOn::anywhere;
+  Homing homing = Homing::on_command;
   std::vector<Skeleton> skeletons;  ///< one per part; `bodies()` and `joints()` combine them
   std::vector<MotorType> motor_types;
   std::vector<SensorType> sensor_types;
@@ -128,10 +131,16 @@ struct Robot {
                "refer to it.");
     v("switched_on", switched_on,
       "Where the robot is whenever its ECUs are switched on. starting_pose: always in its starting "
-      "pose, with all lines as long as in robot.xml; the plant sets the zeros of the encoders there, "
+      "pose, with all lines as long as in robot.xml; the plant sets the zeros of the encoders "
+      "there, "
       "if the joint sensors agree within 0.052 rad. anywhere: the zeros are unknown until a "
       "potentiometer or `erp home` sets them, and length references are refused. Of an included "
       "file it is ignored.");
+    v("homing", homing,
+      "at_start: `erp launch` runs `erp home` once all components are active, which moves the "
+      "robot "
+      "if a zero is unknown. on_command: only a person runs it. Of an included file it is "
+      "ignored.");
     v.list(includes);
     v.list(mirrors);
     v.list(skeletons);
@@ -173,8 +182,13 @@ std::string write_robot(const Robot& robot);
 }  // namespace erp
 
 template <>
+struct xml::Names<erp::Homing> {
+  static constexpr auto list = std::to_array<std::pair<const char*, erp::Homing>>(
+      {{"on_command", erp::Homing::on_command}, {"at_start", erp::Homing::at_start}});
+};
+
+template <>
 struct xml::Names<erp::SwitchedOn> {
   static constexpr auto list = std::to_array<std::pair<const char*, erp::SwitchedOn>>(
-      {{"anywhere", erp::SwitchedOn::anywhere},
-       {"starting_pose", erp::SwitchedOn::starting_pose}});
+      {{"anywhere", erp::SwitchedOn::anywhere}, {"starting_pose", erp::SwitchedOn::starting_pose}});
 };

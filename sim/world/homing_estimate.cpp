@@ -143,7 +143,9 @@ double HomingEstimate::linearize(Problem& problem, std::span<const Pose> poses,
       if (at < 0) continue;
       const auto away = displacement(type, problem.start[k][j], poses[k][j]);
       // Joints of other types stay where they are.
-      const double sigma = !rotates(type) ? 1e-9 : measured_[j] ? sigma_sensor_rad : sigma_start_rad;
+      const double sigma = !rotates(type) ? 1e-9
+                           : measured_[j] ? sigma_sensor_rad
+                                          : sigma_start_rad;
       for (int d = 0; d < coordinates_of(type); ++d) {
         const double error = d < 3 ? away[static_cast<std::size_t>(d)] / sigma : 0;
         problem.normal(first + at + d, first + at + d) += 1 / (sigma * sigma);
@@ -179,15 +181,17 @@ HomedLines HomingEstimate::find(std::span<const HomingSnapshot> snapshots,
   const Pose starting = starting_pose(robot_);
   for (std::size_t k = 0; k < snapshots.size(); ++k) set_measured(start[k], snapshots[k], starting);
   const Eigen::Index m = model_.length_m().size();
-  Problem problem{snapshots, start, known,
-                  static_cast<Eigen::Index>(snapshots.size()) * model_.coordinates(), {}, {}};
+  Problem problem{snapshots, start,
+                  known,     static_cast<Eigen::Index>(snapshots.size()) * model_.coordinates(),
+                  {},        {}};
   std::vector<Pose> poses = start;
   Vector offset_m = Vector::Zero(m);
   double cost = linearize(problem, poses, offset_m), damping = 1e-6;
   for (int step = 0; step < max_steps && damping < 1e6; ++step) {
     Problem trial = problem;
     trial.normal.diagonal() *= 1 + damping;
-    const Vector change = trial.normal.selfadjointView<Eigen::Lower>().ldlt().solve(-problem.gradient);
+    const Vector change =
+        trial.normal.selfadjointView<Eigen::Lower>().ldlt().solve(-problem.gradient);
     const auto trial_poses = moved(poses, change);
     const Vector trial_offset_m = offset_m + change.tail(m);
     const double trial_cost = linearize(trial, trial_poses, trial_offset_m);

@@ -107,9 +107,8 @@ void VirtualEcus::report(erp::EcuFrame& frame) const {
             static_cast<std::uint8_t>(c.ecu), static_cast<std::uint8_t>(c.number), measured_,
             static_cast<std::uint8_t>(f.state), static_cast<std::uint8_t>(f.fault),
             static_cast<std::uint8_t>(f.request), f.setpoint, f.zero_known,
-            c.inputs.encoder_counts + f.zero_counts, f.duty,
-            c.inputs.current_counts, c.inputs.tension_counts,
-            static_cast<std::uint8_t>(f.accepted_commits & 7u),
+            c.inputs.encoder_counts + f.zero_counts, f.duty, c.inputs.current_counts,
+            c.inputs.tension_counts, static_cast<std::uint8_t>(f.accepted_commits & 7u),
             static_cast<std::uint8_t>(f.rejected_commits)});
   }
   for (const Converters::Analog& a : converters_.analogs())

@@ -20,7 +20,8 @@ std::int64_t driven_ns() {
     node::Reader<erp::ActuatorOwner> owners(participant, wake);
     for (int k = 0; k < 100; ++k) {
       bool is_driven = false;
-      owners.take([&](const erp::ActuatorOwner& m) { is_driven = m.actuators._buffer[0].owner[0]; });
+      owners.take(
+          [&](const erp::ActuatorOwner& m) { is_driven = m.actuators._buffer[0].owner[0]; });
       if (is_driven) return node::wall_ns();
       std::this_thread::sleep_for(10ms);
     }
@@ -37,9 +38,9 @@ TEST_CASE("after forged messages the graph drives the robot again") {
                                  5000);
   for (int seed = 1; seed <= (is_full ? 10 : 1); ++seed) {
     Folder folder;
-    Background graph({"launch", "launch/hinge_rig.xml", "--set", "target.loop=true", "--out",
-                      folder / "run"},
-                     folder / "out.txt");
+    Background graph(
+        {"launch", "launch/hinge_rig.xml", "--set", "target.loop=true", "--out", folder / "run"},
+        folder / "out.txt");
     REQUIRE(graph.wait_for_output("all components are active"));
     REQUIRE(run(std::string(ERP_FORGER) + " " + attack_s + " " + std::to_string(seed)).exit_code ==
             0);

@@ -154,7 +154,8 @@ TEST_CASE("an identity writes only the topics of its role") {
   Rig rig(authorities.own_folder);
   const auto roles = authorities.own_folder + "/roles/";
 
-  const auto heard = run("ERP_SECURITY=" + roles + "listener erp echo sensor_frame --for 3s | wc -l");
+  const auto heard =
+      run("ERP_SECURITY=" + roles + "listener erp echo sensor_frame --for 3s | wc -l");
   CHECK(std::stol(heard.output) > 100);
   const auto sent = run("ERP_SECURITY=" + roles + "listener erp send flexor force 5 --for 1s");
   INFO(sent.output);
@@ -164,14 +165,14 @@ TEST_CASE("an identity writes only the topics of its role") {
   // A controller commands the plant, but cannot pose as a device or as the plant, nor set gains.
   CHECK(intrude(roles + "controller").commands_robot());
   for (const std::string program : {"plant", "sim"}) {
-    const auto started =
-        run("ERP_SECURITY=" + roles + "controller " + program +
-            " --robot configs/hinge_rig/robot.xml --name other");
+    const auto started = run("ERP_SECURITY=" + roles + "controller " + program +
+                             " --robot configs/hinge_rig/robot.xml --name other");
     INFO(started.output);
     CHECK(started.exit_code != 0);
     CHECK(started.output.find("may not write") != std::string::npos);
   }
-  const auto gains = run("ERP_SECURITY=" + roles + "controller erp set flexor force_gain_V_per_A=0.1");
+  const auto gains =
+      run("ERP_SECURITY=" + roles + "controller erp set flexor force_gain_V_per_A=0.1");
   CHECK(gains.output.find("may not write gain_command") != std::string::npos);
   const auto by_operator =
       run("ERP_SECURITY=" + authorities.own_folder + " erp send flexor force 5 --for 1s");
@@ -184,10 +185,11 @@ TEST_CASE("permissions of another role are refused: they are issued to another c
   const Authorities authorities;
   Rig rig(authorities.own_folder);
   const auto roles = authorities.own_folder + "/roles/";
-  std::filesystem::copy_file(roles + "controller/permissions.p7s", roles + "listener/permissions.p7s",
+  std::filesystem::copy_file(roles + "controller/permissions.p7s",
+                             roles + "listener/permissions.p7s",
                              std::filesystem::copy_options::overwrite_existing);
-  const auto message = run("ERP_SECURITY=" + roles + "listener " ERP_INTRUDER
-                           " configs/hinge_rig/robot.xml 3");
+  const auto message =
+      run("ERP_SECURITY=" + roles + "listener " ERP_INTRUDER " configs/hinge_rig/robot.xml 3");
   INFO(message.output);
   CHECK((message.exit_code != 0 || message.output.find("readers 0 ") != std::string::npos));
   rig.stop();

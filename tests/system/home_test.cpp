@@ -28,7 +28,8 @@ std::vector<Report> reports_of(const std::string& recording, std::size_t actuato
     const auto& channel = *elements(frame, "channels")[actuator].members();
     reports.push_back({std::get<bool>(channel.find("zero_known")->data),
                        number(channel, "encoder_counts"), number(channel, "duty_counts"),
-                       number(channel, "tension_counts"), static_cast<int>(number(channel, "request"))});
+                       number(channel, "tension_counts"),
+                       static_cast<int>(number(channel, "request"))});
   }
   return reports;
 }
@@ -79,8 +80,8 @@ struct Started {
         << "<graph name=\"home\" robot=\"" ERP_SOURCE_DIR "/configs/" << robot
         << "/robot.xml\" device=\"sim\">\n<component name=\"sim\" config=\"sim.xml\"/>\n"
         << controllers << "<component name=\"logger\"/>\n</graph>\n";
-    std::vector<std::string> arguments{"launch", folder / "graph.xml", "--out", folder / "run",
-                                       "--set", "logger.file=" + recording};
+    std::vector<std::string> arguments{"launch", folder / "graph.xml",      "--out", folder / "run",
+                                       "--set",  "logger.file=" + recording};
     arguments.insert(arguments.end(), options.begin(), options.end());
     graph.emplace(arguments, folder / "out.txt");
     REQUIRE(graph->wait_for_output("all components are active"));
@@ -173,7 +174,8 @@ TEST_CASE("an actuator with a potentiometer resumes by itself after a reset of i
   }
 }
 
-TEST_CASE("with unknown zeros at the start the plant assumes the starting pose, or erp home is told") {
+TEST_CASE(
+    "with unknown zeros at the start the plant assumes the starting pose, or erp home is told") {
   Started run("hinge_rig", R"(<sim zeros="unknown"/>)", "");
   CHECK(run.graph->wait_for_output("the zero of its encoder is set from the starting pose"));
   const auto known = ::run("erp home");
@@ -191,7 +193,25 @@ TEST_CASE("with unknown zeros at the start the plant assumes the starting pose, 
   }
 }
 
-TEST_CASE("with a sensor on every joint, homing finds the lines to 0.1 mm, at tensions below 15 N") {
+TEST_CASE("robot.xml can let erp launch home the robot at the start") {
+  Folder folder;
+  std::string xml = content(ERP_SOURCE_DIR "/configs/hinge_rig/robot.xml");
+  const std::string name = "<robot name=\"hinge_rig\" switched_on=\"starting_pose\"";
+  REQUIRE(xml.find(name) != xml.npos);
+  xml.replace(xml.find(name), name.size(), "<robot name=\"hinge_rig\" homing=\"at_start\"");
+  std::ofstream(folder / "robot.xml") << xml;
+  std::ofstream(folder / "graph.xml")
+      << "<graph name=\"home\" robot=\"robot.xml\" device=\"sim\"/>\n";
+  Background graph(
+      {"launch", folder / "graph.xml", "--out", folder / "run", "--set", "sim.zeros=unknown"},
+      folder / "out.txt");
+  CHECK(graph.wait_for_output("the zero of its encoder is set from erp_home"));
+  CHECK(graph.wait_for_output("home: flexor: line "));
+  CHECK(graph.stop() == 0);
+}
+
+TEST_CASE(
+    "with a sensor on every joint, homing finds the lines to 0.1 mm, at tensions below 15 N") {
   check_homing("seven_dof", 0.0001);
 }
 

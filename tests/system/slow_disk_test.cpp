@@ -41,7 +41,8 @@ TEST_CASE("a logger that does not run for 0.3 s loses no message of a lockstep r
   CHECK(rows.output == "10000\n");
 }
 
-TEST_CASE("while the disk is full the robot runs on; then the recording resumes, and the loss is told") {
+TEST_CASE(
+    "while the disk is full the robot runs on; then the recording resumes, and the loss is told") {
   const Folder folder;
   const std::string full = folder / "full";
   setenv("ERP_FULL_FILE", full.c_str(), 1);
@@ -51,8 +52,9 @@ TEST_CASE("while the disk is full the robot runs on; then the recording resumes,
   REQUIRE(graph.wait_for_output("all components are active"));
   std::this_thread::sleep_for(2s);
   std::ofstream(full).flush();
-  REQUIRE(graph.wait_for_output("No space left on device; free some space or record elsewhere; "
-                                "messages are lost until a write succeeds"));
+  REQUIRE(
+      graph.wait_for_output("No space left on device; free some space or record elsewhere; "
+                            "messages are lost until a write succeeds"));
   std::this_thread::sleep_for(4s);
   std::filesystem::remove(full);
   REQUIRE(graph.wait_for_output("the recording resumes; "));
@@ -62,8 +64,8 @@ TEST_CASE("while the disk is full the robot runs on; then the recording resumes,
   const auto info = run("erp log info " + file);
   INFO(info.output);
   CHECK(info.exit_code == 0);
-  CHECK(std::regex_search(info.output,
-                          std::regex("[0-9]+ messages within [4-7]\\.[0-9] s could not be written")));
+  CHECK(std::regex_search(
+      info.output, std::regex("[0-9]+ messages within [4-7]\\.[0-9] s could not be written")));
   CHECK(info.output.find("complete") != info.output.npos);
   // The robot was controlled all the time: the frames after the gap are numbered as if there was none.
   const Recorded frames(file, "sensor_frame");
@@ -83,9 +85,9 @@ TEST_CASE("a recording that cannot be begun leaves no file") {
   const Folder folder;
   const std::string full = folder / "full";
   std::ofstream(full).flush();
-  const auto graph = run("ERP_FULL_FILE=" + full + " LD_PRELOAD=" ERP_SLOW_DISK
-                         " erp launch launch/idle.xml --for 2s --out " +
-                         folder / "run");
+  const auto graph = run(
+      "ERP_FULL_FILE=" + full +
+      " LD_PRELOAD=" ERP_SLOW_DISK " erp launch launch/idle.xml --for 2s --out " + folder / "run");
   INFO(graph.output);
   CHECK(graph.exit_code != 0);
   CHECK_FALSE(std::filesystem::exists(folder / "run/idle.mcap"));

@@ -35,8 +35,8 @@ struct HomeOptions {
   std::string robot;
   std::vector<std::string> actuators;  ///< empty: those whose zero is unknown
   bool all = false;                    ///< every actuator
-  bool here = false;  ///< the robot is in its starting pose now; without moving it
-  double tension_N = 12;  ///< largest tension of a line while homing
+  bool here = false;                   ///< the robot is in its starting pose now; without moving it
+  double tension_N = 12;               ///< largest tension of a line while homing
   int priority = hand_priority;
   std::string xml;  ///< robot.xml; empty: that of the running plant
 };

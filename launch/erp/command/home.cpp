@@ -105,8 +105,8 @@ class Home {
     auto lines = estimate.find(std::vector{first}, known, {sim::starting_pose(model)});
     if (largest_sigma_m_of(lines) < good_sigma_m) return lines;
     const auto sets = tension_patterns(model.actuators.size(), options_.tension_N);
-    out_ << "joint " << estimate.unmeasured().front()
-         << " has no sensor: moving the robot through " << poses << " poses\n";
+    out_ << "joint " << estimate.unmeasured().front() << " has no sensor: moving the robot through "
+         << poses << " poses\n";
     const auto snapshots = move.follow(sets, out_);
     auto computed = std::async(std::launch::async, [&] {
       return estimate.find(snapshots, known,

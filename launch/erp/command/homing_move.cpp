@@ -16,8 +16,8 @@ constexpr std::int64_t second_ns = 1'000'000'000;
 constexpr std::int64_t window_ns = second_ns;  // chosen: of the rest
 constexpr double rest_m = 0.0003;              // chosen: largest movement of a line at rest
 constexpr double timeout_s = 30;               // chosen
-constexpr double min_follow = 0.5;             // chosen: share of the tension below which a line is slack
-constexpr double mean_s = 0.2;                 // chosen: snapshots are means over this time
+constexpr double min_follow = 0.5;  // chosen: share of the tension below which a line is slack
+constexpr double mean_s = 0.2;      // chosen: snapshots are means over this time
 
 double to_s(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
 
@@ -118,7 +118,8 @@ std::string HomingMove::slack_line(const sim::HomingSnapshot& snapshot) const {
         snapshot.tension_N[a] >= min_follow * last_N_[a])
       continue;
     return fmt::format(
-        "{}: {:.1f} N instead of {:.1f} N; check its line, its tension sensor and the events of the "
+        "{}: {:.1f} N instead of {:.1f} N; check its line, its tension sensor and the events of "
+        "the "
         "plant",
         name, snapshot.tension_N[a], last_N_[a]);
   }

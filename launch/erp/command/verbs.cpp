@@ -105,8 +105,9 @@ void add_set(CLI::App& app, Chosen& chosen) {
 
 void add_home(CLI::App& app, Chosen& chosen) {
   auto* verb = app.add_subcommand(
-      "home", "Set the zeros of encoders after a reset of their ECUs: winds the lines gently until "
-              "the robot rests, and computes their lengths from robot.xml and the sensors");
+      "home",
+      "Set the zeros of encoders after a reset of their ECUs: winds the lines gently until "
+      "the robot rests, and computes their lengths from robot.xml and the sensors");
   auto options = std::make_shared<HomeOptions>();
   verb->add_option("actuators", options->actuators,
                    "actuators (default: those whose zero is unknown)");

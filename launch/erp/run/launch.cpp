@@ -109,6 +109,9 @@ int launch_graph(const LaunchOptions& options) {
   plan.max_restarts = options.max_restarts;
   plan.ready_timeout_s = ready_timeout_s;
   plan.inputs = run_options.attach;
+  if (robot.homing == erp::Homing::at_start)
+    plan.when_active = {
+        fs::read_symlink("/proc/self/exe"), "home", "--robot", robot.name, "--xml", graph.robot};
   const auto start_time = fs::file_time_type::clock::now();
   Run run(graph, robot.name, plan, run_options.folder);
   const int exit_code = run.execute();

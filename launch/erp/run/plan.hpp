@@ -45,8 +45,10 @@ struct PlannedProcess {
 /// Every process, in the order of activation.
 struct Plan {
   std::vector<PlannedProcess> processes;
-  std::string recording;  ///< file of the first logger; empty: no logger
+  std::string recording;            ///< file of the first logger; empty: no logger
   std::vector<std::string> inputs;  ///< XML files that the components read
+  /// Command that is run when all components are active; empty: none.
+  std::vector<std::string> when_active;
   std::size_t max_restarts = BackOff::Tuning{}.max_restarts;  ///< of one component within 30 s
   double ready_timeout_s = 60;  ///< time limit until all components are ready
 };

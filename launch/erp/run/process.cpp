@@ -32,8 +32,8 @@ struct Descriptor {
 
 /// Runs in the child process and executes the program. Makes only async-signal-safe calls before
 /// exec, because the launcher has DDS threads.
-[[noreturn]] void exec_program(char* const* argv, char* const* environment, pid_t parent, int death_signal, int input,
-                               int log, int error_pipe) {
+[[noreturn]] void exec_program(char* const* argv, char* const* environment, pid_t parent,
+                               int death_signal, int input, int log, int error_pipe) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, death_signal);
   if (getppid() != parent) _exit(1);  // the launcher died before the line above

@@ -10,7 +10,7 @@ namespace launch {
 /// forged sender. New processes have new readers and writers. Reads no clock.
 class Renewal {
  public:
-  static constexpr std::int64_t patience_ns = 1'500'000'000;  ///< without frames; chosen
+  static constexpr std::int64_t patience_ns = 1'500'000'000;   ///< without frames; chosen
   static constexpr std::int64_t min_retry_ns = 3'000'000'000;  ///< between renewals; chosen
   static constexpr std::int64_t give_up_ns = 120'000'000'000;  ///< since the first; chosen
   static constexpr std::int64_t calm_ns = 5'000'000'000;  ///< with frames: the disturbance is over

@@ -22,7 +22,6 @@ namespace {
 constexpr int tick_ms = 20;  // chosen: the start-up advances by one component per tick
 constexpr std::int64_t plain_output_period_ns = 20'000'000;  // chosen
 constexpr std::int64_t redraw_period_ns = 200'000'000;       // chosen
-constexpr std::size_t max_log_lines = 12;
 constexpr double min_reported_delay_s = 0.2;  // chosen: a larger delay is reported at the end
 
 std::vector<SupervisedProcess> processes_of(const Plan& plan) {
@@ -36,11 +35,6 @@ std::vector<SupervisedProcess> processes_of(const Plan& plan) {
 std::string prefix_of(erp::Severity severity) {
   if (severity == erp::Severity::info) return "";
   return severity == erp::Severity::warning ? "warning: " : "fault: ";
-}
-
-std::string conflict_text(const std::string& component, const std::string& robot, long pid) {
-  return "\"" + component + "\" of robot " + robot + " already runs on this bus, pid " +
-         std::to_string(pid) + "; stop its graph, or set ERP_DOMAIN to another number";
 }
 
 /// The name of the role in a security folder.
@@ -115,6 +109,7 @@ int Run::execute() {
     execute_actions();
     watch_frames();
     renew_if_stopped();
+    run_when_active();
     if (time_.now_ns() - last_drawn_ns_ <
         (screen_.is_terminal() ? redraw_period_ns : plain_output_period_ns))
       continue;
@@ -155,27 +150,6 @@ void Run::on_state(const erp::ComponentState& state) {
   supervisor_.on_heartbeat(entry->second,
                            {static_cast<erp::Lifecycle>(state.lifecycle), state.peers, state.links},
                            time_.now_ns());
-}
-
-/// Returns true if another graph already controls the robot; then this run starts no process.
-bool Run::finds_conflict() {
-  for (const auto until_ns = time_.now_ns() + node::discovery_ns(); time_.now_ns() < until_ns;
-       time_.tick(node::monotonic_ns())) {
-    wait();
-    for (const auto& peer : bus_.peers()) {
-      const bool is_sole = peer.role == node::plant_role || peer.role == node::device_role;
-      if (!index_of_.contains(peer.component) && !is_sole) continue;
-      print(conflict_text(peer.component, peer.robot, peer.pid));
-      return true;
-    }
-  }
-  return false;
-}
-
-/// A component of another graph appeared during the start: this graph stops.
-void Run::reject_conflict(const erp::ComponentState& state) {
-  if (supervisor_.stage() != Stage::starting && supervisor_.stage() != Stage::activating) return;
-  supervisor_.stop(conflict_text(state.component, state.robot, state.pid), 2, time_.now_ns());
 }
 
 void Run::on_event(const erp::Event& event) {

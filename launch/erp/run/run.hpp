@@ -51,6 +51,8 @@ class Run {
   /// Reports that frames stop while all processes run, and that they resume.
   void watch_frames();
   void renew_if_stopped();
+  /// Runs the command of the plan each time all components have become active.
+  void run_when_active();
   bool is_any_suspended() const;
   bool is_bus_disturbed() const;
   std::uint64_t device_steps() const;
@@ -67,6 +69,8 @@ class Run {
   std::string state_of(std::size_t index) const;
   Status status();
 
+  static constexpr std::size_t max_log_lines = 12;  ///< printed at once; chosen
+
   const erp::Graph& graph_;
   Plan plan_;
   InputFiles inputs_;
@@ -81,6 +85,8 @@ class Run {
   std::map<std::string, std::size_t> index_of_;
   FrameWatch frame_watch_;
   Renewal renewal_;
+  std::optional<Process> when_active_;
+  bool was_running_ = false;
   bool has_silent_member_ = false;  ///< no heartbeat from at least one process
   std::uint64_t device_steps_ = 0;  ///< when frames stopped
   std::int64_t last_drawn_ns_ = 0;

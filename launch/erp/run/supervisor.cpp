@@ -222,8 +222,7 @@ void Supervisor::kill_if_overdue(Member& member, std::int64_t timeout_ns, std::i
   if (member.killed || !member.requested_ns) return;
   if (now_ns - *member.requested_ns < timeout_ns) return;
   member.killed = true;
-  print(member.process.name + " did not stop within " + seconds(timeout_ns) +
-        "; killing it");
+  print(member.process.name + " did not stop within " + seconds(timeout_ns) + "; killing it");
   add_action(Action::Kind::kill, index_of(member));
 }
 

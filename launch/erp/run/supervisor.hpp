@@ -93,7 +93,7 @@ class Supervisor {
     std::optional<std::int64_t> requested_ns;  ///< time of the last request to activate or to end
     std::int64_t spawn_due_ns = 0;
     bool killed = false;
-    bool renewed = false;  ///< ends because of `renew`
+    bool renewed = false;    ///< ends because of `renew`
     bool finalized = false;  ///< has reported `finalized`; only its process still has to end
     std::size_t restarts = 0;
   };

@@ -155,9 +155,8 @@ void write_identity(Writer& writer, const SecurityRole& role, const Party& autho
   writer.write(Files::identity, Files::identity_key, identity);
   writer.write(Files::governance, 0644,
                [&](BIO* out) { write_signed(out, governance_text(), authority); });
-  writer.write(Files::permissions, 0644, [&](BIO* out) {
-    write_signed(out, permissions_text(validity, role), authority);
-  });
+  writer.write(Files::permissions, 0644,
+               [&](BIO* out) { write_signed(out, permissions_text(validity, role), authority); });
 }
 
 }  // namespace

@@ -16,8 +16,8 @@ constexpr double wound_m = 0.03;
 struct Robot {
   Plant plant;
   erp::Robot robot;
-  double shaft_rad = 0;        ///< true angle; 0 in the starting pose
-  double start_rad = 0;        ///< true angle at the last reset
+  double shaft_rad = 0;  ///< true angle; 0 in the starting pose
+  double start_rad = 0;  ///< true angle at the last reset
   std::int32_t zero_counts = 0;
   bool zero_known = false;
   ecu_state state = ECU_STATE_BOOT;
@@ -82,8 +82,8 @@ struct Robot {
     return frame;
   }
   static void append_analog(erp::EcuFrame& frame, std::uint8_t input, double counts) {
-    erp::append(frame.analogs,
-                erp::EcuAnalogSample{0, input, true, static_cast<std::int32_t>(std::lround(counts))});
+    erp::append(frame.analogs, erp::EcuAnalogSample{
+                                   0, input, true, static_cast<std::int32_t>(std::lround(counts))});
   }
   bool reported(const std::string& code) const {
     return std::ranges::any_of(notices, [&](const auto& n) { return n.code == code; });
@@ -94,7 +94,8 @@ struct Robot {
 erp::Robot with_potentiometer() {
   erp::Robot robot = one_muscle();
   erp::Potentiometer wiper;
-  wiper.actuator = "flexor", wiper.ecu = 0, wiper.input = 1, wiper.range_rad = Robot::range_of_wiper;
+  wiper.actuator = "flexor", wiper.ecu = 0, wiper.input = 1,
+  wiper.range_rad = Robot::range_of_wiper;
   wiper.start_rad = Robot::start_of_wiper;
   robot.potentiometers.push_back(wiper);
   return robot;

@@ -257,6 +257,18 @@ TEST_CASE("a zero of an encoder reaches its ECU in the middle of a gain set") {
   CHECK_FALSE(pair.sample(1).zero_known);
 }
 
+TEST_CASE("a reset whose boot frame was lost makes the zero unknown with the first status") {
+  Pair pair;
+  pair.arm();
+  for (auto& channel : pair.simulated.channels) ecu_set_zero(&channel, true, 1000);
+  for (int tick = 0; tick < 200; ++tick) pair.receive(pair.report());  // every HEALTH page
+  CHECK(pair.sample(0).zero_known);
+  ecu_init(&pair.simulated.channels[0]);
+  pair.receive(pair.report());
+  CHECK_FALSE(pair.sample(0).zero_known);
+  CHECK(pair.sample(1).zero_known);
+}
+
 TEST_CASE("two actuators on one channel, or two sensors on one input, are refused") {
   auto robot = robot_of(2);
   robot.actuators[1].channel = 0;

@@ -159,8 +159,9 @@ inline erp::EcuCommand any_command(const erp::Robot& robot, std::uint64_t answer
 inline bool same(const erp::EcuChannelSample& a, const erp::EcuChannelSample& b) {
   return a.ecu == b.ecu && a.channel == b.channel && a.fresh == b.fresh && a.state == b.state &&
          a.fault == b.fault && a.request == b.request && a.setpoint == b.setpoint &&
-         a.zero_known == b.zero_known && a.encoder_counts == b.encoder_counts && a.duty_counts == b.duty_counts &&
-         a.current_counts == b.current_counts && a.tension_counts == b.tension_counts;
+         a.zero_known == b.zero_known && a.encoder_counts == b.encoder_counts &&
+         a.duty_counts == b.duty_counts && a.current_counts == b.current_counts &&
+         a.tension_counts == b.tension_counts;
 }
 
 /// The first difference of two frames, or an empty text.

@@ -58,8 +58,8 @@ inline void fill(erp::EcuCommand& m, std::uint64_t n) {
 }
 inline void fill(erp::EcuFrame& m, std::uint64_t n) {
   fill_header(m, n);
-  erp::append(m.channels, erp::EcuChannelSample{1, 0, true, 3, 4, 5, -600000, true, 700000, -1023, -2048,
-                                                4095, 6, 201});
+  erp::append(m.channels, erp::EcuChannelSample{1, 0, true, 3, 4, 5, -600000, true, 700000, -1023,
+                                                -2048, 4095, 6, 201});
   erp::append(m.channels, erp::EcuChannelSample{2, 1, false, 1, 0, 2, 9, false, 8, 7, 6, 5});
   erp::append(m.analogs, erp::EcuAnalogSample{1, 3, true, -8191});
 }

@@ -198,7 +198,8 @@ TEST_CASE("a write to a closed recording is rejected") {
   CHECK_THROWS_WITH(writer.write(channel, 0, 0, 0, {}), Catch::Contains("is closed"));
 }
 
-TEST_CASE("with continue_after_failure a failed write loses its messages, and the next ones are kept") {
+TEST_CASE(
+    "with continue_after_failure a failed write loses its messages, and the next ones are kept") {
   const test::Folder folder;
   rlimit original_limit{};
   getrlimit(RLIMIT_FSIZE, &original_limit);
@@ -216,7 +217,8 @@ TEST_CASE("with continue_after_failure a failed write loses its messages, and th
     writer.flush();
     CHECK(writer.failure().find("File too large") != std::string::npos);
   }
-  const auto other = writer.add_channel("late", "cdr", 0);  // its record is written with the next chunk
+  const auto other =
+      writer.add_channel("late", "cdr", 0);  // its record is written with the next chunk
   setrlimit(RLIMIT_FSIZE, &original_limit);
   std::signal(SIGXFSZ, original_handler);
   writer.write(other, 0, 5, 5, view("last"));

@@ -83,16 +83,15 @@ TEST_CASE("a message of every topic is decoded to the values that were written")
   CHECK(example<erp::ActuatorTarget>()["actuators"] == command["actuators"]);
   CHECK(example<erp::EcuCommand>()["channels"] ==
         R"([{"ecu":1,"channel":2,"request":3,"setpoint":-400000}])");
-  CHECK(
-      example<erp::EcuFrame>()["channels"] ==
-      R"([{"ecu":1,"channel":0,"fresh":true,"state":3,"fault":4,"request":5,"setpoint":-600000,)"
-      R"("zero_known":true,"encoder_counts":700000,"duty_counts":-1023,"current_counts":-2048,)"
-      R"("tension_counts":4095,)"
-      R"("gain_sets_accepted":6,"gain_sets_refused":201},)"
-      R"({"ecu":2,"channel":1,"fresh":false,"state":1,"fault":0,"request":2,"setpoint":9,)"
-      R"("zero_known":false,"encoder_counts":8,"duty_counts":7,"current_counts":6,)"
-      R"("tension_counts":5,)"
-      R"("gain_sets_accepted":0,"gain_sets_refused":0}])");
+  CHECK(example<erp::EcuFrame>()["channels"] ==
+        R"([{"ecu":1,"channel":0,"fresh":true,"state":3,"fault":4,"request":5,"setpoint":-600000,)"
+        R"("zero_known":true,"encoder_counts":700000,"duty_counts":-1023,"current_counts":-2048,)"
+        R"("tension_counts":4095,)"
+        R"("gain_sets_accepted":6,"gain_sets_refused":201},)"
+        R"({"ecu":2,"channel":1,"fresh":false,"state":1,"fault":0,"request":2,"setpoint":9,)"
+        R"("zero_known":false,"encoder_counts":8,"duty_counts":7,"current_counts":6,)"
+        R"("tension_counts":5,)"
+        R"("gain_sets_accepted":0,"gain_sets_refused":0}])");
   CHECK(example<erp::EcuFrame>()["analogs"] ==
         R"([{"ecu":1,"input":3,"fresh":true,"counts":-8191}])");
   const auto parameters = example<erp::EcuParameter>()["values"];

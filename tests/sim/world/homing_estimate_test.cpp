@@ -44,7 +44,8 @@ void hold(SimulatedRobot& robot, const std::vector<double>& from_N, const std::v
   for (double t = 0; t < seconds; t += 0.002) {
     std::vector<SetPoint> points;
     for (std::size_t a = 0; a < to_N.size(); ++a)
-      points.push_back({erp::Mode::force, from_N[a] + std::min(1.0, t / 2) * (to_N[a] - from_N[a])});
+      points.push_back(
+          {erp::Mode::force, from_N[a] + std::min(1.0, t / 2) * (to_N[a] - from_N[a])});
     robot.tick(points);
   }
 }
@@ -96,11 +97,11 @@ TEST_CASE("one snapshot of a robot with a sensor on every joint gives all lines"
 
 TEST_CASE("one snapshot gives two unknown lines if the others are known") {
   const auto homed = home("arm", {std::vector<double>(11, 5.0)}, {"pectoralis", "biceps"});
-  for (std::size_t a = 0; a < homed.error_m.size(); ++a)
-    CHECK(std::abs(homed.error_m[a]) < 0.0005);
+  for (std::size_t a = 0; a < homed.error_m.size(); ++a) CHECK(std::abs(homed.error_m[a]) < 0.0005);
 }
 
-TEST_CASE("without a sensor in the shoulder, one snapshot says that it does not determine the lines") {
+TEST_CASE(
+    "without a sensor in the shoulder, one snapshot says that it does not determine the lines") {
   const auto homed = home("arm", {std::vector<double>(11, 5.0)}, {});
   CHECK(*std::ranges::max_element(homed.sigma_m) > 0.005);
 }

@@ -22,8 +22,8 @@ std::vector<int> decisions(Decision wanted, int until_ms, int end_ms) {
     if (!running || !disturbed) stopped_since_ms = -1;
     else if (stopped_since_ms < 0) stopped_since_ms = now_ms;
     const bool stays_stopped = running && stopped_since_ms >= 0;
-    const auto decision =
-        renewal.update(running, stays_stopped ? (now_ms - stopped_since_ms) * ns_of_ms : 0, now_ms * ns_of_ms);
+    const auto decision = renewal.update(
+        running, stays_stopped ? (now_ms - stopped_since_ms) * ns_of_ms : 0, now_ms * ns_of_ms);
     if (decision == Decision::renew) started_ms = now_ms, stopped_since_ms = -1;
     if (decision == wanted) times_ms.push_back(now_ms);
   }
