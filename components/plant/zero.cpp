@@ -23,7 +23,8 @@ Zero::Zero(const erp::Actuator& actuator, double shaft_rad_per_count,
 
 Zero::Change Zero::observe(bool known, ecu_state state, std::int32_t counts, std::int64_t now_ns) {
   counts_ = counts;
-  state_ = state;
+  const bool has_reset = std::exchange(state_, state) != state && state == ECU_STATE_BOOT;
+  if (has_reset) wanted_rad_.reset();  // it was measured before the reset
   if (state == ECU_STATE_BOOT) add_counts_.reset(), readings_ = 0, sum_rad_ = 0;
   const bool was_known = std::exchange(known_, known),
              was_observed = std::exchange(observed_, true);

@@ -258,6 +258,20 @@ TEST_CASE("a controller sets the zero; a known one is first made unknown") {
   CHECK(rig.made_unknown > 0);
 }
 
+TEST_CASE("a reset while the zero is being set drops it") {
+  Robot rig(one_muscle());
+  rig.ticks(3);
+  rig.state = ECU_STATE_IDLE;
+  rig.command(erp::set_zero_mode, -wound_m);  // not yet sent to the ECU
+  rig.shaft_rad = 1;
+  rig.reset();
+  rig.ticks(3);
+  rig.state = ECU_STATE_IDLE;
+  rig.ticks(200);
+  CHECK(rig.zeros_sent == 0);
+  CHECK_FALSE(rig.zero_known);
+}
+
 TEST_CASE("a zero beyond the spindle or not a number is refused") {
   for (const double line_m : {0.3, -0.3, std::nan("")}) {
     Robot rig(one_muscle());
