@@ -78,6 +78,7 @@ std::string ActuatorChannel::zero_refusal(std::string_view controller, std::int3
   if (!may_command(controller, priority))
     return std::string(owner()) + " is the owner; refused the zero of " + std::string(controller);
   if (!(std::abs(line_m) <= Limits::max_line_m)) return "the line is out of range";
+  if (state_ == ECU_STATE_BOOT) return "its ECU is in state boot; set the zero again";
   return "";
 }
 

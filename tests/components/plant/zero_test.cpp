@@ -246,6 +246,7 @@ TEST_CASE("a controller sets the zero; a known one is first made unknown") {
   rig.reset();
   rig.ticks(3);
   rig.state = ECU_STATE_IDLE;
+  rig.tick();
   rig.command(erp::set_zero_mode, -wound_m);
   rig.ticks(100);
   CHECK(rig.zero_known);
@@ -261,7 +262,9 @@ TEST_CASE("a controller sets the zero; a known one is first made unknown") {
 TEST_CASE("a reset while the zero is being set drops it") {
   Robot rig(one_muscle());
   rig.ticks(3);
+  rig.command(erp::set_zero_mode, -wound_m);  // in state boot: refused
   rig.state = ECU_STATE_IDLE;
+  rig.tick();
   rig.command(erp::set_zero_mode, -wound_m);  // not yet sent to the ECU
   rig.shaft_rad = 1;
   rig.reset();
@@ -277,6 +280,7 @@ TEST_CASE("a zero beyond the spindle or not a number is refused") {
     Robot rig(one_muscle());
     rig.ticks(3);
     rig.state = ECU_STATE_IDLE;
+    rig.tick();
     rig.command(erp::set_zero_mode, line_m);
     rig.ticks(100);
     CHECK(rig.zeros_sent == 0);
